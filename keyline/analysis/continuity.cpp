@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/curve/arriving.h"
 
 namespace keyline::analysis {
 namespace {
@@ -27,7 +28,7 @@ JointContinuity joint_continuity(const curve::Jet2& end, const curve::Jet2& star
   JointContinuity joint;
   joint.position = core::mix(end.point, start.point, 0.5);
   joint.gap = core::distance(end.point, start.point);
-  joint.angle = core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end));
+  joint.angle = core::wrap_angle(curve::tangent_angle(start) - curve::arriving_angle(end));
   const double unit = scale > 0 ? 1 / scale : 1;
   const Jump kappa = jump(curve::curvature(end), curve::curvature(start), unit);
   const Jump rate = jump(curve::curvature_rate(end), curve::curvature_rate(start), unit * unit);

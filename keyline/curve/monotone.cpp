@@ -8,6 +8,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "keyline/core/polygon.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/curve/bezier_ends.h"
 #include "keyline/curve/bounded.h"
 #include "keyline/curve/curvature_numerator.h"
@@ -320,7 +321,7 @@ void count_joint(const Bezier2& a, const Bezier2& b, double t, double length, do
   const Jet2 after = jet(b, 0);
   const double allowed = std::max(tolerance, 1e-12);
   if (distance(before.point, after.point) > allowed * length ||
-      std::abs(angle_between(unit_tangent(before), unit_tangent(after))) > allowed) {
+      std::abs(angle_between(arriving_tangent(before), unit_tangent(after))) > allowed) {
     tally.refute(t);
     return;
   }

@@ -5,6 +5,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/view.h"
 #include "keyline/document/cusped.h"
@@ -180,7 +181,7 @@ void append_offset(const PlacedCurve& c, double distance, double tolerance, Offs
 /// is no corner, or only one that parts the offsets by no more than `slack`.
 Result<void> turn_corner(const PlanarCurve& before, const PlanarCurve& after, double distance,
                          double slack, Offset& to) {
-  const double in = curve::tangent_angle(jet(before, 1));
+  const double in = curve::arriving_angle(jet(before, 1));
   const double out = curve::tangent_angle(jet(after, 0));
   const double turn = core::wrap_angle(out - in);
   if (std::abs(turn) < kCorner || std::abs(turn * distance) <= slack) return {};

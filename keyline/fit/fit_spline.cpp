@@ -10,6 +10,7 @@
 #include "keyline/fit/canonical.h"
 #include "keyline/fit/final_spline.h"
 #include "keyline/fit/knot_rates.h"
+#include "keyline/fit/must_pass.h"
 
 namespace keyline::fit {
 namespace {
@@ -305,9 +306,19 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
                  curve_rounding(points, options.rounding), options, rates);
   if (!found) return std::unexpected(found.error());
   const SplineData data = planar_data(run, points.front());
-  const auto spline = options.closed
-                          ? detail::closed_fit(data, one_turn(found->knots), options.order)
-                          : detail::final_fit(data, {0, 1}, found->knots, options.order);
+  std::vector<detail::ToPass> to_pass;
+  for (const std::size_t i : options.must_pass) {
+    const core::Vector2 from = points[i] - points.front();
+    to_pass.push_back({fit.parameters[i], {from.x, from.y}, i});
+  }
+  const auto through = detail::passing(
+      [&](const std::vector<double>& knots) {
+        return options.closed ? detail::closed_fit(data, knots, options.order)
+                              : detail::final_fit(data, {0, 1}, knots, options.order);
+      },
+      options.closed ? one_turn(found->knots) : found->knots, data, options.closed, to_pass);
+  if (!through) return std::unexpected(through.error());
+  const auto& spline = *through;
   if (!spline) {
     return too_few_places(options.order);
   }
@@ -349,8 +360,15 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   std::vector<double> knots;
   for (const double t : found->knots) knots.push_back(core::at(range, t));
   std::erase_if(knots, [&](double t) { return !(t > range.low && t < range.high); });
-  const auto spline =
-      detail::final_fit(data, settings.interval.value_or(range), knots, options.order);
+  std::vector<detail::ToPass> to_pass;
+  for (const std::size_t i : options.must_pass) to_pass.push_back({x[i], {y[i]}, i});
+  const auto through = detail::passing(
+      [&](const std::vector<double>& more) {
+        return detail::final_fit(data, settings.interval.value_or(range), more, options.order);
+      },
+      knots, data, false, to_pass);
+  if (!through) return std::unexpected(through.error());
+  const auto& spline = *through;
   if (!spline) {
     return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order",
                       "give more of them, or a smaller order");
@@ -358,7 +376,7 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   const detail::Misfit m = detail::misfit(*spline, data);
   FunctionFit fit{*spline, detail::interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};
   fit.spline.sum_of_squares = m.sse;
-  fit.bic = found->criterion(fit.sse, fit.interior_knots.size());
+  fit.bic = found->criterion.value(fit.sse, fit.interior_knots.size());
   return fit;
 }
 

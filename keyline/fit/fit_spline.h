@@ -42,7 +42,8 @@ struct SplineFitOptions {
   /// knots then, and no needles of curvature. 0: none.
   double unite = 0;
   bool closed = false;  ///< plane curves: fit a periodic spline, see fit_spline
-  /// Indices of points the curve must pass: their weight becomes a million times the largest.
+  /// Indices of points the curve must pass: their weight becomes a million times the largest, and
+  /// where the knots found let it miss them all the same it gets more (must_pass.h).
   std::vector<std::size_t> must_pass;
   core::Progress progress;
 
@@ -113,7 +114,8 @@ struct FunctionFit {
 /// continuity.
 ///
 /// Errors: bad_input for fewer points than the order, numbers not finite or so large that lengths
-/// overflow, all points equal, weights not positive, options out of range.
+/// overflow, all points equal, weights not positive, options out of range; not_converged where no
+/// more knots make it pass a point it must.
 core::Result<SplineFit> fit_spline(std::span<const core::Point2> points,
                                    std::span<const double> weights = {},
                                    const SplineFitOptions& options = {});

@@ -4,6 +4,7 @@
 
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/document/closest_point.h"
 #include "keyline/document/cusped.h"
 #include "keyline/operations/registry.h"
@@ -125,8 +126,10 @@ Result<CompareResult> run(const CompareRequest& request, const Context&) {
   for (const std::size_t i : {0, 1}) {
     const auto t = static_cast<double>(i);
     result.ends[i] = core::distance(evaluate(a, t), evaluate(b, t));
-    result.end_angles[i] =
-        core::wrap_angle(curve::tangent_angle(jet(b, t)) - curve::tangent_angle(jet(a, t)));
+    const auto direction = [i, t](const document::Path& c) {
+      return i == 0 ? curve::tangent_angle(jet(c, t)) : curve::arriving_angle(jet(c, t));
+    };
+    result.end_angles[i] = core::wrap_angle(direction(b) - direction(a));
   }
   result.combs = {comb_of(a, request.places), comb_of(b, request.places)};
   return result;

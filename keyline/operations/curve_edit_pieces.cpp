@@ -7,6 +7,7 @@
 #include "keyline/analysis/continuity.h"
 #include "keyline/classa/between_tangents.h"
 #include "keyline/classa/deviation.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/operations/edit_piece.h"
 #include "keyline/operations/ends.h"
 #include "keyline/operations/registry.h"
@@ -55,7 +56,7 @@ PieceValue place_of(const Bezier2& c, double alpha_max) {
 std::optional<Bezier2> target_of(const Bezier2& c, double alpha_max) {
   const int degree = curve::degree(c);
   if (degree > kHighestPieceDegree) return std::nullopt;
-  const core::Vector2 arriving = curve::unit_tangent(jet(c, 1));
+  const core::Vector2 arriving = curve::arriving_tangent(jet(c, 1));
   const auto found = classa::class_a_between(
       {c.control.front(), curve::unit_tangent(jet(c, 0)), c.control.back(), arriving},
       range_for(degree, alpha_max));

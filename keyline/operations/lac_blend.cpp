@@ -38,10 +38,14 @@ struct BlendResult {
 };
 
 core::Result<BlendResult> run(const BlendRequest& request, const Context&) {
-  auto solved = lac::solve_blend(lac::blend_end(request.curves[0], request.at[0]),
-                                 lac::blend_end(request.curves[1], request.at[1]), request.order,
-                                 request.alpha);
-  if (!solved) return std::unexpected(solved.error());
+  auto solved = lac::solve_blend(lac::blend_leaving(request.curves[0], request.at[0]),
+                                 lac::blend_joining(request.curves[1], request.at[1]),
+                                 request.order, request.alpha);
+  if (!solved) {
+    core::Failure failure = solved.error();
+    if (failure.path == "end") failure.path = "at";
+    return std::unexpected(std::move(failure));
+  }
   return BlendResult{made({std::move(solved->chain)}), std::move(solved->overridden),
                      solved->absolute_turning, solved->bending_energy};
 }

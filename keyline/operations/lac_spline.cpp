@@ -74,7 +74,8 @@ lac::SplineOptions options_of(const SplineRequest& request) {
 }
 
 Result<SplineResult> run(const SplineRequest& request, const Context&) {
-  const std::size_t spans = request.closed ? request.points.size() : request.points.size() - 1;
+  const bool repeats = request.points.front() == request.points.back();  // a closed one's first
+  const std::size_t spans = request.points.size() - (request.closed && !repeats ? 0 : 1);
   if (request.alpha.size() > std::max<std::size_t>(spans, 1))
     return core::fail(ErrorCode::bad_input,
                       "\"alpha\" holds " + core::counted(request.alpha.size(), "number"),

@@ -9,6 +9,7 @@
 #include "keyline/analysis/comb_figures.h"
 #include "keyline/analysis/profile.h"
 #include "keyline/core/angle.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/curve/bspline.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/operations/amount.h"
@@ -159,7 +160,7 @@ std::vector<Kink> kinks_of(const analysis::CurveView& view, const analysis::ArcL
   std::vector<Kink> kinks;
   const auto look = [&](double at, const curve::Jet2& end, const curve::Jet2& start) {
     const double angle =
-        std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::tangent_angle(end)));
+        std::abs(core::wrap_angle(curve::tangent_angle(start) - curve::arriving_angle(end)));
     if (!(angle <= kSmooth))
       kinks.push_back({at, angle, curve::curvature(end), curve::curvature(start)});
   };

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/curve/bezier.h"
+
 #include "spirals.h"
 
 namespace keyline::analysis {
@@ -44,6 +46,16 @@ TEST(Continuity, OrdersEndAtTheirTolerances) {
   };
   EXPECT_EQ(beside(0.8), (std::array{3, 2, 2, 2}));
   EXPECT_EQ(beside(1.3), (std::array{2, 1, 0, -1}));
+}
+
+// The last handle lies in the end point, as fonts and drawings have it: travel came along the line.
+TEST(Continuity, AHandleDrawnInAtTheEndTurnsNothing) {
+  const curve::Bezier2 first{{{0, 0}, {0, 0}, {3, 0}, {3, 0}}, {}};
+  const curve::Bezier2 next{{{3, 0}, {3, 0}, {5, 0}, {5, 0}}, {}};
+  const auto joints = continuity(std::vector{first, next});
+  ASSERT_EQ(joints.size(), 1U);
+  EXPECT_EQ(joints[0].angle, 0);
+  EXPECT_GE(joints[0].order, 1);
 }
 
 TEST(Continuity, JumpsAreMeasured) {

@@ -7,6 +7,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/bezier.h"
+#include "keyline/curve/polyline.h"
 
 namespace keyline::lac {
 namespace {
@@ -38,8 +39,8 @@ void expect_meets(const BlendSolution& blend, const BlendEnd& from, const BlendE
 TEST(Blend, JoinsBezierCurvesToEveryOrder) {
   const curve::Bezier2 a{{{0, 0}, {1, 0}, {2, 0.5}, {2.5, 1.5}}, {}};
   const curve::Bezier2 b{{{5, 3}, {6, 3.2}, {7, 2.5}, {8, 1}}, {}};
-  const BlendEnd from = blend_end(a, 0.9);
-  const BlendEnd to = blend_end(b, 0.1);
+  const BlendEnd from = blend_leaving(a, 0.9);
+  const BlendEnd to = blend_joining(b, 0.1);
   for (const double alpha : {-1.0, -2.0, -0.5}) {
     for (const int order : {1, 2, 3}) {
       SCOPED_TRACE(std::to_string(alpha) + " G" + std::to_string(order));
@@ -48,6 +49,20 @@ TEST(Blend, JoinsBezierCurvesToEveryOrder) {
       expect_meets(*blend, from, to, order);
     }
   }
+}
+
+// At a corner the part before it is left, the part behind it joined; where curvature jumps, too.
+TEST(Blend, LeavesThePartBeforeAndJoinsThePartBehind) {
+  const curve::Polyline2 corner{{{0, 0}, {1, 0}, {1, 1}}};
+  EXPECT_EQ(blend_leaving(corner, 0.5).pose, (core::Pose2{{1, 0}, 0}));
+  EXPECT_NEAR(blend_joining(corner, 0.5).pose.direction, core::kPi / 2, 1e-15);
+  EXPECT_EQ(blend_leaving(corner, 0).pose.direction, 0);
+  EXPECT_NEAR(blend_joining(corner, 1).pose.direction, core::kPi / 2, 1e-15);
+  const Chain bend{{{0, 0}, 0}, {{-1, 1, 0, 0}, {-1, 1, 1, 1}}, false};
+  EXPECT_EQ(blend_leaving(bend, 0.5).curvature, 0);
+  EXPECT_EQ(blend_joining(bend, 0.5).curvature, 1);
+  const curve::Bezier2 drawn_in{{{0, 0}, {1, 0}, {2, 1}, {2, 1}}, {}};
+  EXPECT_NEAR(blend_leaving(drawn_in, 1).pose.direction, core::kPi / 4, 1e-15);
 }
 
 TEST(Blend, KeepsTheSignOfCurvatureForSlopesFromZeroOn) {

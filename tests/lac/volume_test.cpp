@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,27 @@ TEST(SolveVolume, VolumeGrowsWithTheArrivalAngle) {
     }
     EXPECT_GT(before, 0) << alpha;
   }
+}
+
+// Two slopes turn by less than half a circle, and the symmetric curve of a steep start would not.
+TEST(SolveVolume, TwoSlopesMayLeaveAcrossTheChordAndBack) {
+  const CompoundRhythm rhythm{-1, 1, 0.5};
+  for (const double from : {0.5, core::kPi / 2, 1.6, 1.9})
+    for (const double share : {0.2, 0.9}) {
+      const auto range = solve_volume({{0, 0}, from}, {2, 0}, rhythm, 1e9);
+      ASSERT_FALSE(range);
+      const std::string& hint = range.error().hint;
+      const double largest = std::stod(hint.substr(hint.rfind(' ')));
+      const auto found = solve_volume({{0, 0}, from}, {2, 0}, rhythm, share * largest);
+      ASSERT_TRUE(found) << from << ' ' << found.error().message;
+      const Chain& chain = found->solution.chain;
+      EXPECT_LT(distance(end_pose(chain).position, core::Point2{2, 0}), 1e-12);
+      EXPECT_NEAR(chain.start.direction, from, 1e-15);
+      EXPECT_NEAR(std::abs(chord_area(chain)), share * largest, 1e-8);
+    }
+  const auto back = solve_volume({{0, 0}, core::kPi}, {2, 0}, rhythm, 1);
+  ASSERT_FALSE(back);
+  EXPECT_NE(back.error().message.find("straight back"), std::string::npos);
 }
 
 TEST(SolveVolume, NamesTheNearestVolume) {

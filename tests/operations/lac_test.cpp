@@ -111,6 +111,19 @@ TEST(LacCompound, RefusesBadRatiosAndCounts) {
   EXPECT_EQ(path({{"points", {{0, 0}, {1, 0}}}}), "points");
 }
 
+TEST(LacSpline, AFirstPointThatRepeatsMakesNoSpan) {
+  json request{{"op", "lac.spline"},
+               {"points", {{0, 0}, {3, 0}, {3, 2}, {0, 2}, {0, 0}}},
+               {"closed", true},
+               {"alpha", {-1, -1, -1, -1}}};
+  const json result = asked(request).at("result");
+  EXPECT_EQ(result.at("curve").at("pieces").size(), 4U);
+  EXPECT_EQ(result.at("report").at("spans"), 4);
+  request["alpha"].push_back(-1);
+  const json refused = asked(request);
+  EXPECT_EQ(refused["error"]["hint"], "give 1, or one for each of the 4 spans") << refused;
+}
+
 TEST(LacRegion, HoldsWhatCanBeDrawn) {
   for (const json& alpha : {json(-1.5), json(0.5), json(2), json{-1, 1.5}, json{2.0, -2.0}}) {
     SCOPED_TRACE(alpha.dump());

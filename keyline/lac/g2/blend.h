@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "keyline/core/describe.h"
 #include "keyline/core/error.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/curve/concept.h"
 #include "keyline/lac/chain/chain.h"
 
@@ -20,11 +22,19 @@ struct BlendEnd {
   double curvature_rate = 0;  ///< dkappa/ds
 };
 
-/// At parameter t of any planar curve, from the side of growing t (at 1: of falling t). A blend
-/// runs from the first curve, in its direction, into the second, in its direction: reverse a curve
-/// (or use opposite) to leave or join it the other way.
+/// At parameter t of any planar curve, where it may have a corner or its curvature jump: of the
+/// part before t, which a blend leaves, or of the part behind it, which a blend joins; at an end,
+/// of the only part there is. A blend runs from the first curve, in its direction, into the second,
+/// in its direction: reverse a curve (or use opposite) to leave or join it the other way.
 template <curve::PlanarCurve C>
-BlendEnd blend_end(const C& c, double t) {
+BlendEnd blend_leaving(const C& c, double t) {
+  const curve::Jet2 j = jet(c, t < 1 ? std::nextafter(t, 0.0) : 1);
+  const double direction = t < 1 ? curve::tangent_angle(j) : curve::arriving_angle(j);
+  return {{evaluate(c, t), direction}, curve::curvature(j), curve::curvature_rate(j)};
+}
+template <curve::PlanarCurve C>
+BlendEnd blend_joining(const C& c, double t) {
+  if (t == 1) return blend_leaving(c, t);
   const curve::Jet2 j = jet(c, t);
   return {{j.point, curve::tangent_angle(j)}, curve::curvature(j), curve::curvature_rate(j)};
 }

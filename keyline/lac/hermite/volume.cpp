@@ -16,6 +16,8 @@
 namespace keyline::lac {
 namespace {
 
+constexpr double kStraightBack = 1e-6;  // radians from it: a curve there is as long as a million
+
 using core::ErrorCode;
 using core::Pose2;
 using core::Vector2;
@@ -38,7 +40,8 @@ double area_of(const CompoundSolution& s) { return std::abs(chord_area(s.chain))
 template <class Solve>
 class Family {
  public:
-  Family(double from, const Solve& solve) : from_(std::abs(from)), solve_(solve) {}
+  /// inside: an arrival angle that there is a curve of, if there is one.
+  Family(double inside, const Solve& solve) : inside_(inside), solve_(solve) {}
 
   auto at(double arrival) const { return solve_(arrival); }
   /// NaN where there is no curve.
@@ -46,16 +49,16 @@ class Family {
     const auto s = at(arrival);
     return s ? area_of(*s) : std::nan("");
   }
-  /// The last arrival angle with a curve on the way from the symmetric one to `limit`.
+  /// The last arrival angle with a curve on the way from the one inside to `limit`.
   double last_towards(double limit) const {
     if (at(limit)) return limit;
     constexpr int kHalvings = 60;  // to rounding
-    return numeric::last_that_holds([this](double b) { return at(b).has_value(); }, from_, limit,
+    return numeric::last_that_holds([this](double b) { return at(b).has_value(); }, inside_, limit,
                                     kHalvings);
   }
 
  private:
-  double from_;
+  double inside_;
   const Solve& solve_;
 };
 
@@ -111,11 +114,19 @@ template <class Solve>
 auto with_volume(const Across& across, double widest, double volume, const Solve& solve)
     -> core::Result<Found<typename decltype(solve(1.0))::value_type>> {
   const double from = std::abs(across.from);
-  const Family<Solve> family(from, solve);
-  if (!family.at(from)) {
+  if (core::kPi - from < kStraightBack)
     return core::fail(ErrorCode::undrawable, "the direction points straight back along the chord",
                       "turn it to one side");
-  }
+  // The symmetric one; where that turns too far, the one nearest to it: the farther a curve turns
+  // the steeper it may leave.
+  const double inside = std::min(from, widest);
+  const Family<Solve> family(inside, solve);
+  if (!family.at(inside))
+    return core::fail(
+        ErrorCode::undrawable,
+        "no curve of this rhythm leaves in this direction and turns by less than half "
+        "a circle",
+        "turn the direction towards the chord", "direction");
   const double square = across.chord * across.chord;
   const double unit_volume = volume / square;
   const double low = family.last_towards(1e-9 * from);
@@ -195,7 +206,7 @@ core::Result<VolumeSolution> solve_volume(const Pose2& start, core::Point2 end, 
     auto s = solve_g1_directions_chain({{0, 0}, across.from}, {{1, 0}, to}, alpha);
     return s ? std::optional(std::move(*s)) : std::nullopt;
   };
-  auto found = with_volume(across, core::kPi - 1e-6, volume, solve);
+  auto found = with_volume(across, core::kPi - kStraightBack, volume, solve);
   if (!found) return std::unexpected(found.error());
   answer.solution = std::move(found->solution);
   answer.volume = area_of(answer.solution) * across.chord * across.chord;
@@ -226,7 +237,7 @@ core::Result<CompoundVolumeSolution> solve_volume(const Pose2& start, core::Poin
     auto s = solve_compound({sign * (from + arrival), sign * from, 1, across.from}, rhythm);
     return s ? std::optional(std::move(*s)) : std::nullopt;
   };
-  auto found = with_volume(across, core::kPi - from - 1e-6, volume, solve);
+  auto found = with_volume(across, core::kPi - from - kStraightBack, volume, solve);
   if (!found) return std::unexpected(found.error());
   answer.solution = std::move(found->solution);
   answer.volume = area_of(answer.solution) * across.chord * across.chord;
