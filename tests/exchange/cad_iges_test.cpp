@@ -91,6 +91,38 @@ TEST_F(CadIges, UnitsAreThoseOfTheFlag) {
   }
 }
 
+// 2.2.4.3.15: with flag 3 the unit is the one that is named, by the names of table 3.
+TEST_F(CadIges, UnitsAreThoseOfTheNameWhereTheFlagSaysSo) {
+  struct Case {
+    const char* name;
+    const char* unit;
+    double length;
+  };
+  const std::vector<IgesEntity> line{{.parameters = "110,0,0,0,1000.,0,0"}};
+  for (const Case& c : {Case{"IN", "in", 1},
+                        {"INCH", "in", 1},
+                        {"MM", "mm", 1},
+                        {"FT", "ft", 1},
+                        {"MI", "mm", 1609344},
+                        {"M", "m", 1},
+                        {"KM", "km", 1},
+                        {"MIL", "mm", 0.0254},
+                        {"UM", "mm", 1e-3},
+                        {"CM", "cm", 1},
+                        {"UIN", "mm", 2.54e-5}}) {
+    SCOPED_TRACE(c.name);
+    const Document d = read_sound("d.iges", iges_file(line, 3, c.name));
+    ASSERT_EQ(d.paths.size(), 1U);
+    EXPECT_EQ(d.unit, c.unit);
+    EXPECT_NEAR(evaluate(d.paths[0].path, 1).x / (1000 * c.length), 1, 1e-12);
+    EXPECT_THAT(d.skipped, IsEmpty());
+  }
+  const Document d = read_sound("d.iges", iges_file(line, 3, "ELL"));
+  EXPECT_EQ(d.unit, "mm");
+  EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("the unit \"ELL\", which IGES does not know")));
+  EXPECT_EQ(read_sound("d.iges", iges_file(line, 2, "IN")).unit, "mm");  // else the flag counts
+}
+
 // 4.74 and 4.78: an instance of a subfigure lies moved; one that is scaled is not read, and told.
 TEST_F(CadIges, ScaledInstancesAreTold) {
   const auto with = [this](const std::string& scale) {

@@ -34,8 +34,10 @@ inline std::string line(std::string text, char section, std::size_t number) {
 
 }  // namespace iges_text
 
-/// A file of these in a unit (2: mm; 1 to 10), written by hand after IGES 5.3, 2.2.4.
-inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit = 2) {
+/// A file of these in a unit (2: mm; 1 to 10; 3: that of the name), written by hand after IGES 5.3,
+/// 2.2.4.
+inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit = 2,
+                             const std::string& unit_name = "u") {
   using iges_text::in_columns;
   std::string directory, parameters;
   std::size_t first = 1;  // parameter line
@@ -58,8 +60,9 @@ inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit =
       parameters += iges_text::line(text + in_columns(of(2 * i + 1), 8), 'P', first++);
     }
   }
-  const std::string global =
-      "1H,,1H;,1Ha,1Ha,1Ha,1H1,32,38,6,38,15,1Ha,1.," + std::to_string(unit) + ",1Hu,1,0.01,";
+  const std::string global = "1H,,1H;,1Ha,1Ha,1Ha,1H1,32,38,6,38,15,1Ha,1.," +
+                             std::to_string(unit) + ',' + std::to_string(unit_name.size()) + 'H' +
+                             unit_name + ",1,0.01,";
   const std::string rest = "15H20260101.000000,1E-07,100.,1Ha,1Ha,11,0,15H20260101.000000;";
   const auto counted = [](char section, std::size_t count) {
     return section + in_columns(std::to_string(count), 7);

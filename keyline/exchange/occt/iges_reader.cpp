@@ -16,11 +16,13 @@
 #include <map>
 #include <stdexcept>
 
+#include "keyline/core/text.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
 #include "keyline/exchange/occt/value_check.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::occt {
 namespace {
@@ -75,6 +77,8 @@ Label label_of(const Handle(IGESData_IGESEntity) & entity, const Levels& levels)
   return label;
 }
 
+constexpr int kByName = 3;
+
 /// Our name of the unit flag.
 const char* unit_of(int flag) {
   switch (flag) {
@@ -91,6 +95,17 @@ const char* unit_of(int flag) {
     default:
       return "mm";
   }
+}
+
+/// Flag of the unit, in which 3 leaves it to the name (IGES 5.3, 2.2.4.3.14 and 15): then that of
+/// the name, and still 3 where the table has no such name.
+int unit_flag(int flag, const std::string& name) {
+  static const std::map<std::string, int> kNames = {{"in", 1}, {"inch", 1}, {"mm", 2},  {"ft", 4},
+                                                    {"mi", 5}, {"m", 6},    {"km", 7},  {"mil", 8},
+                                                    {"um", 9}, {"cm", 10},  {"uin", 11}};
+  if (flag != kByName) return flag;
+  const auto named = kNames.find(detail::lower_case(name));
+  return named == kNames.end() ? kByName : named->second;
 }
 
 /// Says which roots became no shapes, by label and entity type.
@@ -124,7 +139,12 @@ document::Document read_iges(const std::string& file) {
     throw std::runtime_error("this is no IGES file that can be read; check that it is complete");
   document::Document document;
   IGESData_GlobalSection global = reader.IGESModel()->GlobalSection();
+  const std::string unit = trimmed(global.UnitName());
+  global.SetUnitFlag(unit_flag(global.UnitFlag(), unit));
   document.unit = unit_of(global.UnitFlag());
+  if (global.UnitFlag() == kByName)
+    document.skipped.push_back("the unit \"" + core::on_one_line(unit) +
+                               "\", which IGES does not know: its numbers are taken for mm");
   // Shapes in the file's own unit: the kernel's unit is made that of the file.
   global.SetCascadeUnit(document::millimetres(document.unit));
   reader.IGESModel()->SetGlobalSection(global);
