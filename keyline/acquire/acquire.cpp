@@ -174,16 +174,26 @@ Texture texture_of(const Working& work, bool closed, const AcquireOptions& optio
   return {estimate_noise(work.points, closed, apart), apart, noise_stride(work.points, closed)};
 }
 
-/// Says where waves that one could see are taken for noise.
-void note_texture(const Working& work, const Texture& texture, KeyLine& line) {
-  if (texture.stride <= texture.nearest) return;
+/// Says where waves that one could see are taken for noise, and what a detail asked for shows.
+void note_texture(const Working& work, const Texture& texture, bool asked, KeyLine& line) {
+  if (!asked && texture.stride <= texture.nearest) return;
   const double length = core::polygon_length(work.points, line.closed);
-  const double wave = kStridesPerWave * static_cast<double>(texture.stride) * length /
-                      static_cast<double>(work.points.size());
-  line.report.notes.push_back("waves shorter than " + core::number_text(wave, 3) +
-                              " are taken for the surface's texture, of " +
-                              core::number_text(texture.noise, 3) +
-                              "; \"detail\" sets that length");
+  const std::string wave = core::number_text(kStridesPerWave * static_cast<double>(texture.stride) *
+                                                 length / static_cast<double>(work.points.size()),
+                                             3);
+  const std::string noise = core::number_text(texture.noise, 3);
+  if (!asked) {
+    line.report.notes.push_back("waves shorter than " + wave +
+                                " are taken for the surface's texture, of " + noise +
+                                "; \"detail\" sets that length");
+    return;
+  }
+  const double beside = estimate_noise(work.points, line.closed, texture.nearest);
+  line.report.notes.push_back("noise measured on waves shorter than " + wave + ": " + noise +
+                              (texture.noise <= beside
+                                   ? ", no more than neighbouring points show"
+                                   : ", where neighbouring points show " +
+                                         core::number_text(beside, 3) + "; higher waves stay"));
 }
 
 /// Steps that the coordinates are multiples of.
@@ -262,7 +272,7 @@ core::Result<KeyLine> acquire_key_line(const RawCurve& raw, const AcquireOptions
   settle_ends(work, stride, noise, options, line);
   const Texture texture = texture_now();
   line.noise = noise_now(texture);
-  note_texture(work, texture, line);
+  if (!options.noise) note_texture(work, texture, options.detail.has_value(), line);
   if (options.find_corners) {
     line.corners = find_corners(work.points, line.closed, line.noise, options.corner_angle);
   }

@@ -18,7 +18,7 @@ struct AcquireOptions {
   bool find_corners = true;
   double corner_angle = 0.6;    ///< radians: a smaller change of direction is no corner
   std::optional<double> noise;  ///< known standard deviation; empty: estimated
-  /// Waves shorter than this are noise, in the points' unit; empty: found where texture shows.
+  /// Noise is measured on waves shorter than this, in the points' unit; empty: where texture shows.
   std::optional<double> detail;
   std::optional<Plane> plane;                 ///< empty: fitted (3D input) or z = 0 (planar input)
   core::CancellationToken cancellation = {};  ///< asked while points are put in order

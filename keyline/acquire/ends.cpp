@@ -12,6 +12,7 @@ namespace {
 constexpr double kAcross = 0.8;      // radians
 constexpr double kOften = 4.6;       // -ln(0.01): one loop in a hundred has a wider gap
 constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam of an outline
+constexpr double kCornerTurns = 3;   // times what the curve beside it does
 constexpr double kClearance = 4;     // and less than so many standard errors of the turn there
 constexpr double kByChance = 2;      // the same of the turns beside it, which no corner is beside
 constexpr double kAbout = 0.7;       // of the steps at the ends: about as long as those
@@ -63,6 +64,28 @@ EndStep end_step(const FromEnd& at, double away, std::size_t stride) {
   return {step, std::abs(core::angle_between(step, at[2 * k] - at[k]))};
 }
 
+/// Whether the turn from the gap into the steps at an end stands out from the curve's own beside
+/// it, which is over as much way. Errors add to that one in squares, so that they hide no corner;
+/// where it is more than they explain, the curve bends.
+bool stands_out(const FromEnd& at, core::Vector2 over_gap, double away, std::size_t stride,
+                double noise) {
+  const EndStep end = end_step(at, away, stride);
+  const double by_chance = kByChance * std::sqrt(1.5) * 2 * noise / core::norm(end.inwards);
+  const double sure = std::sqrt(std::max(0.0, end.turn * end.turn - by_chance * by_chance));
+  return std::abs(core::angle_between(over_gap, end.inwards)) >= kCornerTurns * sure;
+}
+
+/// Whether both ends are corners, each by itself: at a round tip the seam holds the turns of two
+/// steps and the gap, and those of steps beside it are on their way there.
+bool is_blunt(std::span<const core::Point2> points, double away, std::size_t stride, double noise) {
+  const core::Vector2 chord = points.front() - points.back();
+  const auto both = [&](double far) {
+    return stands_out({points, false}, -chord, far, stride, noise) &&
+           stands_out({points, true}, chord, far, stride, noise);
+  };
+  return both(0) && both(away);
+}
+
 /// True where the chord between the ends goes on from the curve before it and into that after it.
 bool runs_across(std::span<const core::Point2> points) {
   const core::Vector2 chord = points.front() - points.back();
@@ -106,14 +129,15 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   // Of steps without a common end, and of the next ones, which have one that counts twice.
   const double error = 2 * noise / away;
   const double sure = beside - kByChance * std::sqrt(1.5) * error;
-  const bool corner =
-      std::abs(seam) >= std::max(kSeamCorner, kClearance * error) && std::abs(seam) >= 3 * sure;
+  const bool corner = std::abs(seam) >= std::max(kSeamCorner, kClearance * error) &&
+                      std::abs(seam) >= kCornerTurns * sure;
   if (repeated) return corner ? Ends::corner_repeated : Ends::closed_repeated;
   if (!corner) return Ends::closed;
   const core::Vector2 chord = points.front() - points.back();
   const double at_last = std::abs(core::angle_between(-last.inwards, chord));
   const double at_first = std::abs(core::angle_between(chord, first.inwards));
-  if (std::min(at_last, at_first) >= 0.3 * std::max(at_last, at_first)) return Ends::blunt;
+  if (std::min(at_last, at_first) >= 0.3 * std::max(at_last, at_first))
+    return is_blunt(points, away, s, noise) ? Ends::blunt : Ends::closed;
   return at_first > at_last ? Ends::corner_at_first : Ends::corner_at_last;
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,10 @@ RawCurve raw(const std::vector<core::Point2>& points) {
   return curve;
 }
 
+std::string last_note(const std::vector<core::Point2>& points, const AcquireOptions& options) {
+  return acquire_key_line(raw(points), options).value().report.notes.back();
+}
+
 TEST(Texture, IsToldAndTheLengthCanBeSet) {
   const auto points = rough_ellipse(8);
   const KeyLine line = acquire_key_line(raw(points)).value();
@@ -81,6 +86,17 @@ TEST(Texture, IsToldAndTheLengthCanBeSet) {
   AcquireOptions options;
   options.detail = 0.3;
   EXPECT_LT(acquire_key_line(raw(points), options).value().noise, 0.5 * kRoughness);
+  EXPECT_NE(last_note(points, options).find(", no more than neighbouring points show"),
+            std::string::npos);
+  // The same waves are noise now: neighbours show less of it, and nothing says that all such go.
+  options.detail = 3;
+  const std::string note = last_note(points, options);
+  EXPECT_NE(note.find("noise measured on waves shorter than "), std::string::npos) << note;
+  EXPECT_NE(note.find("; higher waves stay"), std::string::npos) << note;
+  EXPECT_EQ(note.find("taken for"), std::string::npos) << note;
+  options.noise = kRoughness;  // known: nothing is measured
+  EXPECT_EQ(last_note(points, options).find("noise measured"), std::string::npos);
+  options.noise.reset();
   options.detail = -1;
   EXPECT_FALSE(acquire_key_line(raw(points), options).has_value());
 }
