@@ -46,7 +46,10 @@ JetGrid sample_grid(const Surface& s, int rows, int columns, int threads) {
     for (int j = 0; j < columns; ++j) {
       SurfaceJet& here = grid.jets[i * static_cast<std::size_t>(columns) + j];
       here = detail::combine(strip, across[j], kSecondOrder);
-      if (!frame_of(here)) here = jet_with_normal(s, u, j / (columns - 1.0));
+      if (frame_of(here)) continue;
+      const core::Point3 point = here.point;
+      here = jet_with_normal(s, u, j / (columns - 1.0));
+      here.point = point;
     }
   });
   return grid;

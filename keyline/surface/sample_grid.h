@@ -23,7 +23,7 @@ struct JetGrid {
 inline constexpr int kMostGridPoints = 16'777'216;
 
 /// Rows are shared among threads (<= 0: all of the machine's); the result does not depend on how
-/// many. Points without a normal are handled as jet_with_normal does.
+/// many. Where there is no normal all but the point itself is as jet_with_normal() has it.
 /// Throws InvalidInput unless rows, columns >= 2 and their product is at most kMostGridPoints.
 JetGrid sample_grid(const Surface& s, int rows, int columns, int threads = 1);
 

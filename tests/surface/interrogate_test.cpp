@@ -136,6 +136,18 @@ TEST(Interrogate, ZebraIsContinuousAcrossG1AndBrokenAcrossG0) {
   EXPECT_GT(step_at_joint(a, g0).value, 0.05);
 }
 
+// Two edges of a triangle, the third collapsed into the origin.
+TEST(Interrogate, PointsOfACollapsedEdgeStayInTheirPlace) {
+  const Surface s = BezierSurface{{2, 2, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, {}};
+  const JetGrid grid = sample_grid(s, 2, 3);
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_EQ(grid.at(0, j).point, (core::Point3{0, 0, 0}));
+    ASSERT_TRUE(frame_of(grid.at(0, j)));
+    EXPECT_NEAR(std::abs(frame_of(grid.at(0, j))->normal.z), 1, 1e-15);
+  }
+  EXPECT_EQ(grid.at(1, 2).point, (core::Point3{0, 1, 0}));
+}
+
 TEST(Interrogate, NoNormalNoValueAndNoNonsense) {
   const BezierSurface point{{3, 3, std::vector<core::Point3>(9, {1, 2, 3})}, {}};
   const Field field = field_of(point, FieldKind::zebra);
