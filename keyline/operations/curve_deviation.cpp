@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "keyline/analysis/profile.h"
 #include "keyline/document/closest_point.h"
+#include "keyline/document/cusped.h"
+#include "keyline/operations/ends.h"
 #include "keyline/operations/paper_operations.h"
 #include "keyline/operations/values.h"
 
@@ -42,11 +45,55 @@ struct PointDeviation {
   }
 };
 
+/// On which side of a curve a point lies, told at the place nearest to it. At a corner, which may
+/// be where the curve ends as it begins, that is the outside of its turn, of which either direction
+/// of travel alone may be wrong, but not their mean; at a cusp that is none.
+class Side {
+ public:
+  Side(const document::Path& path, double length)
+      : cusped_(path),
+        view_(cusped_),
+        comes_back_(meet(evaluate(path, 0), evaluate(path, 1), length)) {}
+
+  bool is_left(const curve::ClosestPoint& foot, Point2 p) const {
+    const auto [before, after] = both_sides(foot.t);
+    const core::Vector2 travel =
+        unit_tangent(view_.jet_at(before)) + unit_tangent(view_.jet_at(after));
+    if (norm(travel) < kCusp) return turns_right(before, after, foot.point);
+    return cross(travel, p - foot.point) >= 0;
+  }
+
+ private:
+  static constexpr double kOnePlace = 1e-12;  // of the parameter
+  static constexpr double kCusp = 1e-6;       // radians short of half a turn
+
+  /// Parameters just before and at a breakpoint; the same twice elsewhere.
+  std::array<double, 2> both_sides(double t) const {
+    const auto at = std::ranges::lower_bound(view_.breaks(), t - kOnePlace);
+    if (at == view_.breaks().end() || *at > t + kOnePlace) return {t, t};
+    if (*at == 0) return {comes_back_ ? 1.0 : 0.0, 0};
+    if (*at == 1) return {1, comes_back_ ? 0.0 : 1.0};
+    return {std::nextafter(*at, 0.0), *at};
+  }
+
+  /// Of the ways into a cusp and out of it.
+  bool turns_right(double before, double after, Point2 cusp) const {
+    constexpr double kBeside = 1e-3;
+    const Point2 from = evaluate(view_, before - kBeside), to = evaluate(view_, after + kBeside);
+    return cross(cusp - from, to - cusp) <= 0;
+  }
+
+  document::CuspedPath cusped_;
+  analysis::CurveView view_;
+  bool comes_back_;
+};
+
 Result<PointDeviation> run(const DeviationRequest& request, const Context& context) {
   constexpr std::size_t kLook = 1024;  // points between two looks at whether to go on
   const analysis::CurveView view = analysis::view(request.curve);
   const analysis::ArcLengthTable table(view);
   const document::ClosestSearch nearest(request.curve);
+  const Side side(request.curve, table.length());
   PointDeviation result;
   double squares = 0;
   for (const Point2& p : request.points) {
@@ -58,13 +105,10 @@ Result<PointDeviation> run(const DeviationRequest& request, const Context& conte
           "measuring points");
     }
     const curve::ClosestPoint foot = nearest(p);
-    const double angle = curve::tangent_angle(jet(view, foot.t));
-    const core::Vector2 away = p - foot.point;
-    const bool left = std::cos(angle) * away.y >= std::sin(angle) * away.x;
     result.arc_length.push_back(table.length_at(foot.t));
-    result.distance.push_back(left ? foot.distance : -foot.distance);
+    result.distance.push_back(side.is_left(foot, p) ? foot.distance : -foot.distance);
     result.feet.push_back(foot.point);
-    result.direction.push_back(angle);
+    result.direction.push_back(curve::tangent_angle(jet(view, foot.t)));
     result.max = std::max(result.max, foot.distance);
     squares += foot.distance * foot.distance;
   }

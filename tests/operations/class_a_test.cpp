@@ -96,19 +96,6 @@ TEST(CurvePlane, ShowsACurveInSpaceInItsPlane) {
     EXPECT_NEAR(off["reach"][i][1].get<double>(), flat["reach"][i][1].get<double>(), 1e-9);
 }
 
-TEST(CurveDeviation, TellsPlaceAndSideOfPoints) {
-  const json line{{"type", "bezier"}, {"points", {{0, 0}, {5, 0}, {10, 0}}}};
-  const json told =
-      perform_well("curve.deviation", {{"curve", line}, {"points", {{1, 0.5}, {4, -2}, {13, 4}}}});
-  EXPECT_NEAR(told["arc_length"][0].get<double>(), 1, 1e-9);
-  EXPECT_NEAR(told["distance"][0].get<double>(), 0.5, 1e-12);
-  EXPECT_NEAR(told["distance"][1].get<double>(), -2, 1e-12);
-  EXPECT_NEAR(told["distance"][2].get<double>(), 5, 1e-12);
-  EXPECT_NEAR(told["feet"][2][0].get<double>(), 10, 1e-9);
-  EXPECT_NEAR(told["max"].get<double>(), 5, 1e-12);
-  EXPECT_NEAR(told["rms"].get<double>(), std::sqrt((0.25 + 4 + 25) / 3), 1e-12);
-}
-
 /// An evenly run line: a fraction of its length is its parameter.
 TEST(FitCurvature, TakesPlacesAlongTheLength) {
   json points = json::array();
