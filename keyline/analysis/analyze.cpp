@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "keyline/analysis/seam.h"
 #include "keyline/analysis/volume.h"
 #include "keyline/numeric/parallel.h"
 
@@ -124,6 +125,9 @@ core::Result<CurveAnalysis> analyze(const CurveView& curve, const AnalyzeOptions
     meet(p.curvature_end);
   }
   result.monotone = monotone_answer(options, result.split);
+  const double apart = core::distance(curve.point(0), curve.point(1));
+  if (options.one_end && apart <= *options.one_end * table.length())
+    add_events_at_seam(curve, table, split, result.split);
   return result;
 }
 

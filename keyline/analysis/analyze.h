@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct AnalyzeOptions {
   double noise = 0;
   SplitOptions split;
   RhythmOptions rhythm;
+  /// Ends within this share of the length are one place, whose events are told too.
+  std::optional<double> one_end;
   int plot_samples = 401;   ///< of the curvature plot, at least 2
   int piece_samples = 201;  ///< points of each logarithmic curvature graph, at least 3
   /// Certifies monotone curvature where the curve's type allows it; without it the answer is `no`
@@ -61,7 +64,7 @@ struct CurveAnalysis {
   double curvature_min = 0;
   double curvature_max = 0;
   std::vector<CurvaturePlotPoint> plot;
-  Split split;  ///< its pieces are those of `pieces`
+  Split split;  ///< its pieces are those of `pieces`; with the events of a seam
   std::vector<PieceAnalysis> pieces;
   MonotoneAnswer monotone;
 };

@@ -8,6 +8,7 @@
 #include "keyline/document/cusped.h"
 #include "keyline/fairing/points_splines.h"
 #include "keyline/operations/diagram_shown.h"
+#include "keyline/operations/ends.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/sampled_comb.h"
 
@@ -203,6 +204,7 @@ core::Result<analysis::CurveAnalysis> analyze_path(const document::Path& path, d
                       "noise");
   analysis::AnalyzeOptions options;
   options.noise = noise;
+  options.one_end = kOneEnd;
   options.plot_samples = plot_samples;
   options.progress = progress;
   options.certify = certificate_of(path);

@@ -91,6 +91,7 @@ TEST(Operations, ClosedCurvesAreSplitOverTheirStart) {
     EXPECT_EQ(parts(square, {{"at", {0, 0.5}}}).size(), 2U);
     EXPECT_EQ(parts(square, {{"corners", true}}).size(), 4U);
     EXPECT_EQ(parts(square, {{"corners", true}, {"at", 1}}).size(), 4U);
+    EXPECT_EQ(perform("curve.analyze", {{"curve", square}}, {}).value()["corners"].size(), 4U);
   }
   const json open{{"type", "polyline"}, {"points", {{0, 0}, {1, 0}, {1, 1}}}};
   EXPECT_EQ(parts(open, {{"at", 0}}), "at");
