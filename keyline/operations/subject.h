@@ -30,7 +30,7 @@ struct Acquiring {
             .in("length")
             .within(core::from_to(0, 1e100)),
         core::field<&Acquiring::detail>(
-            "of measured points: waves shorter than this are taken for noise; found where texture "
+            "of measured points: noise is measured on waves shorter than this; found where texture "
             "shows unless given")
             .in("length"),
         core::field<&Acquiring::keep_order>("never put measured points in another order"),
