@@ -42,6 +42,10 @@ std::optional<PathGap> first_gap(const std::vector<SpaceCurve>& curves) {
   return gap_among(curves);
 }
 
+bool ends_meet(const SpaceCurve& curve) {
+  return distance(evaluate(curve, 0), evaluate(curve, 1)) <= kShare * reach_of(std::vector{curve});
+}
+
 void close_gaps(Path& path) {
   const double least = kShare * reach_of(path.curves);
   auto* alone =

@@ -21,6 +21,9 @@ struct PathGap {
 std::optional<PathGap> first_gap(const Path& path);
 std::optional<PathGap> first_gap(const std::vector<SpaceCurve>& curves);
 
+/// Whether the curve ends where it begins, but for less than such a gap.
+bool ends_meet(const SpaceCurve& curve);
+
 /// Closes all such gaps, of a closed path also that before its first member, with straight lines (a
 /// polyline alone with a vertex).
 void close_gaps(Path& path);

@@ -183,6 +183,28 @@ TEST(DxfReader, GroupsWithTwoValuesAreSaid) {
   EXPECT_TRUE(same.skipped.empty());
 }
 
+// The flag makes no curve closed: one whose ends lie apart would get an edge that nobody drew.
+TEST(DxfReader, SplinesAreClosedWhereTheirEndsMeet) {
+  const auto spline = [](const std::string& knots, const std::string& points) {
+    return read("0 SPLINE 8 0 70 9 71 3 " + knots + points);
+  };
+  const std::string ends = "40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 ";
+  const Document apart = spline(ends, "10 0 20 0 10 1 20 5 10 5 20 5 10 6 20 0");
+  EXPECT_FALSE(apart.paths.at(0).path.closed);
+  EXPECT_THAT(apart.skipped,
+              ElementsAre("nothing, but open: 1 spline said to be closed whose ends lie apart"));
+  // 1e-5 of its size, as paths of other files
+  const Document near = spline(ends, "10 0 20 0 10 1 20 5 10 5 20 5 10 0.00001 20 0");
+  EXPECT_TRUE(near.paths.at(0).path.closed);
+  EXPECT_THAT(near.skipped, IsEmpty());
+  // The last three points are the first: its ends meet, but not in a control point.
+  const Document around = spline("40 0 40 1 40 2 40 3 40 4 40 5 40 6 40 7 40 8 40 9 40 10 ",
+                                 "10 0 20 0 10 1 20 0 10 1 20 1 10 0 20 1 10 0 20 0 10 1 20 0 "
+                                 "10 1 20 1");
+  EXPECT_TRUE(around.paths.at(0).path.closed);
+  EXPECT_THAT(around.skipped, IsEmpty());
+}
+
 TEST(DxfReader, FitPointsThatAreAnnouncedHaveToBeThere) {
   const Document d =
       read("0 LINE 8 0 10 1 20 2 11 3 21 4 0 SPLINE 8 0 70 8 71 3 74 3 11 0 21 0 11 5 21 1");

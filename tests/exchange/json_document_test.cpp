@@ -179,6 +179,22 @@ TEST(JsonDocument, PathsAreClosedOrNot) {
   EXPECT_EQ(path("1"), "closed");
 }
 
+// The line that closes a path of curves is in no text; a polyline by itself ends where it begins.
+TEST(JsonDocument, ALineThatClosesAPathIsTold) {
+  const auto told = [](const std::string& curves, bool closed = true) {
+    const auto d = read(R"({"curves": [{"curve": {"type": "path", "curves": [)" + curves +
+                        R"(], "closed": )" + (closed ? "true" : "false") + "}}]}");
+    if (!d) return d.error().message;
+    return d->skipped.empty() ? std::string("nothing") : d->skipped.front();
+  };
+  const std::string bent = R"({"type": "bezier", "points": [[0, 0], [1, 5], [5, 5], [6, 0]]})";
+  EXPECT_EQ(told(bent),
+            "curves[0].curve: nothing, but a straight line of length 6 closes this path");
+  EXPECT_EQ(told(bent, false), "nothing");
+  EXPECT_EQ(told(bent + R"(, {"type": "bezier", "points": [[6, 0], [0, 0]]})"), "nothing");
+  EXPECT_EQ(told(R"({"type": "polyline", "points": [[0, 0], [1, 0], [1, 1]]})"), "nothing");
+}
+
 TEST(JsonDocument, TrimLoopsAreListsOfCurves) {
   const auto loops = [](const std::string& list) {
     return R"({"surfaces": [{"surface": P, "trim_loops": )" + list + "}]}";

@@ -72,6 +72,9 @@ void DxfBeside::tell(std::vector<std::string>& lines) const {
   if (fitted_ > 0)
     lines.push_back("nothing, but a cubic through the fit points stands for " +
                     core::counted(fitted_, "spline") + " without control points");
+  if (apart_ > 0)
+    lines.push_back("nothing, but open: " + core::counted(apart_, "spline") +
+                    " said to be closed whose ends lie apart");
   if (thick_ > 0) lines.push_back("the thickness of " + entities(thick_));
   if (wide_ > 0) lines.push_back("the width of " + core::counted(wide_, "polyline"));
 }

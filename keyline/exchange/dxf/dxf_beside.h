@@ -19,6 +19,8 @@ class DxfBeside {
   /// One of a type that is no curve.
   void take_other(const DxfEntity& entity);
   void take_of_paper() { ++paper_; }
+  /// A spline that is said to be closed and is not.
+  void take_apart() { ++apart_; }
   /// A line for each kind there was.
   void tell(std::vector<std::string>& lines) const;
 
@@ -31,6 +33,7 @@ class DxfBeside {
   std::size_t paper_ = 0;
   std::size_t invisible_ = 0;
   std::size_t fitted_ = 0;
+  std::size_t apart_ = 0;
   std::size_t thick_ = 0;
   std::size_t wide_ = 0;
 };

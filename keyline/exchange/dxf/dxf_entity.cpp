@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/core/text.h"
+#include "keyline/document/path_gap.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -176,7 +177,8 @@ Result<DxfCurve> spline_of(const Tags& tags) {
   if (auto sound = validate(spline); !sound)
     return none(sound.error().message +
                 (sound.error().path.empty() ? "" : " (" + sound.error().path + ")"));
-  return DxfCurve{std::move(spline), closed};
+  const bool apart = closed && !document::ends_meet({spline});
+  return DxfCurve{std::move(spline), closed && !apart, apart};
 }
 
 const DxfTag* find(const Tags& tags, int code) {

@@ -44,6 +44,7 @@ bool is_dxf_curve(std::string_view type);
 struct DxfCurve {
   DxfShape shape;
   bool closed = false;
+  bool apart = false;  ///< a spline said to be closed whose ends lie apart: it is not
 };
 
 /// Geometry in world coordinates. Fails (bad_input, message only) where the numbers make no curve:

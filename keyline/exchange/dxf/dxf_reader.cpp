@@ -216,6 +216,7 @@ class DxfReader {
     } else {
       auto curve = detail::dxf_curve_of(entity);
       if (!curve) return problem(describe(entity) + ": " + curve.error().message);
+      if (curve->apart) beside_.take_apart();
       item.curve = std::move(*curve);
     }
     beside_.take(entity, item.layer);

@@ -1,5 +1,6 @@
 #include "keyline/exchange/json/json_document.h"
 
+#include "keyline/core/text.h"
 #include "keyline/document/color.h"
 #include "keyline/exchange/json/json_hull.h"
 #include "keyline/exchange/json/json_lists.h"
@@ -86,6 +87,18 @@ Result<Label> label_of(const json& j, const std::string& where) {
   return label;
 }
 
+/// Of a closed path whose ends lie apart: the line that closes it stands nowhere in its text.
+void tell_closing_line(Document& document, const json& value, const document::Path& path,
+                       const std::string& where) {
+  const auto members = value.find("curves");
+  if (members == value.end() || path.curves.size() == members->size()) return;
+  const document::PlanarCurve& line = path.curves.back();
+  const double length = distance(evaluate(line, 0), evaluate(line, 1));
+  document.skipped.push_back((where.empty() ? "" : where + ": ") +
+                             "nothing, but a straight line of length " +
+                             core::number_text(length, 3) + " closes this path");
+}
+
 Result<void> add_value(Document& document, const json& value, const std::string& where, Label label,
                        double stroke_width) {
   if (is_surface_json(value)) {
@@ -109,6 +122,7 @@ Result<void> add_value(Document& document, const json& value, const std::string&
   }
   auto path = path_from_json(value, where);
   if (!path) return std::unexpected(path.error());
+  tell_closing_line(document, value, *path, where);
   document.paths.push_back({std::move(label), std::move(*path), stroke_width});
   return {};
 }
