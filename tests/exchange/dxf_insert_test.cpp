@@ -56,6 +56,81 @@ TEST(DxfInsert, ArraysTurnButDoNotScale) {
   }
 }
 
+const std::string kLine = " 0 LINE 8 0 10 0 20 0 11 1 21 0 ";
+
+/// What a drawing of these blocks and tables, a line and these entities tells.
+Document drawing(const std::string& blocks, const std::string& entities,
+                 const std::string& tables = {}) {
+  std::istringstream words("0 SECTION 2 TABLES " + tables + " 0 ENDSEC 0 SECTION 2 BLOCKS " +
+                           blocks + " 0 ENDSEC 0 SECTION 2 ENTITIES " + kLine + entities +
+                           " 0 ENDSEC 0 EOF");
+  std::string text;
+  for (std::string word; words >> word;) text += word + "\n";
+  return read_dxf(text).value_or(Document{});
+}
+
+std::string block(const std::string& name, const std::string& entities,
+                  const std::string& further = {}) {
+  return " 0 BLOCK 8 0 2 " + name + ' ' + further + " 10 0 20 0 " + entities + " 0 ENDBLK ";
+}
+
+// DXF reference, "BLOCK": 70 has 4 for an external reference, 8 for one laid over; 1 is its path.
+TEST(DxfInsert, BlocksOfOtherFilesAreTold) {
+  const auto with = [](const std::string& flags) {
+    return drawing(block("site", "", "70 " + flags + " 1 plans/site.dwg"),
+                   "0 INSERT 8 0 2 site 10 0 20 0")
+        .skipped;
+  };
+  for (const char* flags : {"4", "36", "8"})
+    EXPECT_THAT(with(flags), testing::ElementsAre(HasSubstr(
+                                 "INSERT: block \"site\" is another file, \"plans/site.dwg\"")))
+        << flags;
+  EXPECT_THAT(with("0"), testing::IsEmpty());
+}
+
+TEST(DxfInsert, BlocksThatNothingInsertsAreTold) {
+  const auto told = [](const std::string& blocks, const std::string& entities = {}) {
+    const Document d = drawing(blocks, entities);
+    return d.skipped.empty() ? std::string("nothing") : d.skipped.front();
+  };
+  EXPECT_EQ(told(block("wheel", kLine)), "1 entity of 1 block that nothing inserts: wheel");
+  EXPECT_EQ(told(block("wheel", kLine), "0 INSERT 8 0 2 wheel 10 0 20 0"), "nothing");
+  EXPECT_EQ(told(block("empty", "")), "nothing");
+  // One within another stands where that stands.
+  const std::string nested =
+      block("hub", kLine + kLine) + block("wheel", "0 INSERT 8 0 2 hub 10 0 20 0");
+  EXPECT_EQ(told(nested), "3 entities of 2 blocks that nothing inserts: hub, wheel");
+  EXPECT_EQ(told(nested, "0 INSERT 8 0 2 wheel 10 0 20 0"), "nothing");
+  EXPECT_EQ(told(block("a", kLine) + block("b", kLine) + block("c", kLine) + block("d", kLine)),
+            "4 entities of 4 blocks that nothing inserts: a, b, c and others");
+  // The picture of a dimension, which is told by its type.
+  EXPECT_EQ(told(block("*D1", kLine), "0 DIMENSION 8 0 2 *d1 10 0 20 0"), "DIMENSION: 1 entity");
+}
+
+// *Paper_Space0 and so on hold the layouts that are not in front.
+TEST(DxfInsert, LayoutsAreTold) {
+  const Document d = drawing(
+      block("*Model_Space", "") + block("*Paper_Space", "") + block("*Paper_Space0", kLine + kLine),
+      "0 LINE 67 1 8 0 10 0 20 0 11 1 21 0");
+  EXPECT_EQ(d.paths.size(), 1U);
+  EXPECT_THAT(d.skipped, testing::ElementsAre("3 entities in paper space"));
+}
+
+// In the tables of a DXF "walls" and "WALLS" are one.
+TEST(DxfInsert, NamesAreTheSameInSmallAndLargeLetters) {
+  const std::string layers =
+      "0 TABLE 2 LAYER 0 LAYER 2 Walls 70 0 62 -1 0 LAYER 2 Doors 70 0 62 5 0 ENDTAB";
+  const Document d = drawing(block("WHEEL", " 0 LINE 8 DOORS 10 0 20 0 11 1 21 0 "),
+                             "0 INSERT 8 0 2 wheel 10 5 20 5", layers);
+  ASSERT_EQ(d.paths.size(), 2U);
+  EXPECT_EQ(d.paths[1].label.color, "#0000ff");
+  const Document of_layers =
+      drawing("", "0 LINE 8 walls 10 0 20 0 11 1 21 0 0 LINE 8 WALLS 10 0 20 0 11 1 21 0", layers);
+  EXPECT_THAT(of_layers.skipped,
+              testing::ElementsAre("nothing, but off or frozen: layer Walls, 2 entities"));
+  EXPECT_EQ(of_layers.paths.at(1).label.color, "#ff0000");
+}
+
 TEST(DxfInsert, CountsBelowOneAreOne) {
   EXPECT_EQ(inserted("10 0 20 0 70 0 71 -3 44 5 45 7").paths.size(), 1U);
   EXPECT_EQ(inserted("10 0 20 0").paths.size(), 1U);

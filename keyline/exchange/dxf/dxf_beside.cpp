@@ -5,6 +5,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/core/utf8.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange::detail {
 namespace {
@@ -40,11 +41,12 @@ void DxfBeside::take_layer(const DxfEntity& layer, const std::string& name) {
   constexpr int kFrozen = 1;
   unread_layers_ += is_unread(layer.tags, 70);
   const bool off = integer(layer.tags, 62) < 0;
-  if (off || (integer(layer.tags, 70) & kFrozen) != 0) unseen_layers_.insert(name);
+  if (off || (integer(layer.tags, 70) & kFrozen) != 0) unseen_[lower_case(name)] = {name};
 }
 
 void DxfBeside::take(const DxfEntity& entity, const std::string& layer) {
-  if (unseen_layers_.contains(layer)) ++unseen_[layer];
+  if (const auto unseen = unseen_.find(lower_case(layer)); unseen != unseen_.end())
+    ++unseen->second.entities;
   invisible_ += integer(entity.tags, 60) == 1;
   unread_ += is_unread(entity.tags, 60);
   thick_ += has(entity.tags, {39});
@@ -61,8 +63,10 @@ void DxfBeside::tell(std::vector<std::string>& lines) const {
   const auto entities = [](std::size_t n) { return core::counted(n, "entity", "entities"); };
   if (paper_ > 0) lines.push_back(entities(paper_) + " in paper space");
   for (const auto& [type, count] : others_) lines.push_back(type + ": " + entities(count));
-  for (const auto& [layer, count] : unseen_)
-    lines.push_back("nothing, but off or frozen: layer " + layer + ", " + entities(count));
+  for (const auto& [key, layer] : unseen_)
+    if (layer.entities > 0)
+      lines.push_back("nothing, but off or frozen: layer " + layer.name + ", " +
+                      entities(layer.entities));
   if (invisible_ > 0) lines.push_back("nothing, but not to be seen: " + entities(invisible_));
   const auto unread = [&lines](const std::string& whose) {
     lines.push_back("the visibility of " + whose + ", which is no number");

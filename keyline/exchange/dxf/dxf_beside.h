@@ -2,7 +2,6 @@
 
 #include <map>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "keyline/exchange/dxf/dxf_entity.h"
@@ -25,8 +24,11 @@ class DxfBeside {
   void tell(std::vector<std::string>& lines) const;
 
  private:
-  std::unordered_set<std::string> unseen_layers_;
-  std::map<std::string, std::size_t> unseen_;  ///< entities of each of them
+  struct UnseenLayer {
+    std::string name;
+    std::size_t entities = 0;
+  };
+  std::map<std::string, UnseenLayer> unseen_;  ///< by the name in small letters
   std::map<std::string, std::size_t> others_;
   std::size_t unread_ = 0;  ///< of a visibility that is no number
   std::size_t unread_layers_ = 0;

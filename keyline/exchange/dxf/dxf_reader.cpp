@@ -13,36 +13,22 @@
 #include "keyline/core/utf8.h"
 #include "keyline/document/units.h"
 #include "keyline/exchange/dxf/dxf_beside.h"
+#include "keyline/exchange/dxf/dxf_block.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_entity.h"
 #include "keyline/exchange/dxf/dxf_header.h"
+#include "keyline/exchange/text/ascii.h"
 
 namespace keyline::exchange {
 namespace {
 
 using core::Result;
 using detail::Affine3;
+using detail::DxfBlock;
 using detail::DxfEntity;
+using detail::DxfItem;
 using detail::DxfTag;
 using document::Document;
-
-/// One thing of a block or of the drawing, not yet placed.
-struct Item {
-  std::string_view type;
-  std::uint32_t place = 0;
-  std::string name;  ///< ours; of an insert, else, its block's
-  std::string layer;
-  int color = 256;    ///< index; 0: of the insert, 256: of the layer
-  std::string exact;  ///< true colour; empty: by index
-  std::optional<detail::DxfCurve> curve;
-  std::string block;  ///< of an insert
-  std::vector<Affine3> places;
-};
-
-struct Block {
-  core::Point3 base;
-  std::vector<Item> items;
-};
 
 /// What an insert hands down to the things of its block.
 struct Outer {
@@ -106,7 +92,8 @@ class DxfReader {
   }
 
   Result<Document> finish() {
-    for (const Item& item : items_) place(item, Outer{});
+    for (const DxfItem& item : items_) place(item, Outer{});
+    if (!full_) blocks_.tell(problems_);
     beside_.tell(problems_);
     document_.skipped = std::move(problems_);
     document_.unit = header_.unit();
@@ -175,18 +162,7 @@ class DxfReader {
 
   void finish(const DxfEntity& entity) {
     if (section_ == "TABLES") return add_layer(entity);
-    if (section_ == "BLOCKS" && entity.type == "BLOCK") {
-      if (!is_readable(entity)) {
-        block_ = nullptr;
-        return;
-      }
-      const std::string name = detail::text(entity.tags, 2);
-      if (blocks_.contains(name))
-        problem(describe(entity) + ": an earlier block of its name, \"" + name + '"');
-      block_ = &blocks_[name];
-      *block_ = Block{detail::point(entity.tags, 10), {}};
-      return;
-    }
+    if (section_ == "BLOCKS" && entity.type == "BLOCK") return start_block(entity);
     if (section_ == "BLOCKS" && entity.type == "ENDBLK") {
       block_ = nullptr;
       return;
@@ -194,21 +170,35 @@ class DxfReader {
     if (section_ == "ENTITIES" || (section_ == "BLOCKS" && block_)) add_entity(entity);
   }
 
+  void start_block(const DxfEntity& entity) {
+    block_ = nullptr;
+    if (!is_readable(entity)) return;
+    const std::string name = detail::text(entity.tags, 2);
+    if (blocks_.find(name))
+      problem(describe(entity) + ": an earlier block of its name, \"" + name + '"');
+    block_ = &blocks_.start(entity);
+  }
+
   void add_layer(const DxfEntity& entity) {
     if (entity.type != "LAYER") return;
     const int exact = color_number(entity, 420, -1);
     const int index = std::abs(color_number(entity, 62, 7));
     const std::string name = detail::text(entity.tags, 2);
-    layer_colors_[name] = exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
+    layer_colors_[detail::lower_case(name)] =
+        exact >= 0 ? detail::true_color(exact) : detail::aci_color(index);
     beside_.take_layer(entity, name);
   }
 
   void add_entity(const DxfEntity& entity) {
     const bool insert = entity.type == "INSERT";
-    if (!insert && !detail::is_dxf_curve(entity.type)) return beside_.take_other(entity);
-    if (!block_ && detail::integer(entity.tags, 67) == 1) return beside_.take_of_paper();
+    if (!insert && !detail::is_dxf_curve(entity.type)) {
+      blocks_.take_other(entity);
+      return beside_.take_other(entity);
+    }
+    if (block_ ? block_->paper : detail::integer(entity.tags, 67) == 1)
+      return beside_.take_of_paper();
     if (!is_readable(entity)) return;
-    Item item = labelled(entity);
+    DxfItem item = labelled(entity);
     if (insert) {
       item.block = detail::text(entity.tags, 2);
       if (item.name.empty()) item.name = item.block;
@@ -222,7 +212,7 @@ class DxfReader {
     beside_.take(entity, item.layer);
     if (block_) return block_->items.push_back(std::move(item));
     // Blocks may stand behind the drawing.
-    const bool later = insert && !blocks_.contains(item.block);
+    const bool later = insert && !blocks_.find(item.block);
     if (later) return items_.push_back(std::move(item));
     place(item, Outer{});
   }
@@ -258,8 +248,8 @@ class DxfReader {
     return tags_.place({.place = thing.place}) + ": " + std::string(thing.type);
   }
 
-  Item labelled(const DxfEntity& entity) {
-    Item item;
+  DxfItem labelled(const DxfEntity& entity) {
+    DxfItem item;
     item.type = entity.type;
     item.place = entity.place;
     item.layer = detail::text(entity.tags, 8);
@@ -308,15 +298,15 @@ class DxfReader {
     return places;
   }
 
-  std::string color_of(const Item& item, const Outer& outer, const std::string& layer) const {
+  std::string color_of(const DxfItem& item, const Outer& outer, const std::string& layer) const {
     if (!item.exact.empty()) return item.exact;
     if (item.color == 0) return outer.color;
     if (item.color != 256) return detail::aci_color(std::abs(item.color));
-    const auto found = layer_colors_.find(layer);
+    const auto found = layer_colors_.find(detail::lower_case(layer));
     return found == layer_colors_.end() ? std::string() : found->second;
   }
 
-  void place(const Item& item, const Outer& outer) {
+  void place(const DxfItem& item, const Outer& outer) {
     if (full_) return;
     const bool inherits = item.layer == "0" && outer.depth > 0;
     const std::string& layer = inherits ? outer.layer : item.layer;
@@ -337,19 +327,22 @@ class DxfReader {
     if (!added) problem(describe(item) + ": " + added.error().message);
   }
 
-  void place_block(const Item& item, const Outer& outer, const std::string& layer,
+  void place_block(const DxfItem& item, const Outer& outer, const std::string& layer,
                    const std::string& color, const std::string& name) {
-    const auto block = blocks_.find(item.block);
-    if (block == blocks_.end())
-      return problem(describe(item) + ": there is no block \"" + item.block + "\"");
+    DxfBlock* const block = blocks_.find(item.block);
+    if (!block) return problem(describe(item) + ": there is no block \"" + item.block + "\"");
+    block->placed = true;
+    if (block->external && block->items.empty())
+      return problem(describe(item) + ": block \"" + item.block + "\" is another file, \"" +
+                     block->file + '"');
     if (outer.depth >= limits_.depth)
       return problem(describe(item) + ": blocks within blocks, deeper than " +
                      std::to_string(limits_.depth) + " or without end");
     for (const Affine3& cell : item.places) {
       Outer inner{detail::combined(outer.map, cell), layer, color, name, outer.depth + 1};
-      const core::Point3 base = block->second.base;
+      const core::Point3 base = block->base;
       inner.map.origin = detail::apply(inner.map, core::Point3{-base.x, -base.y, -base.z});
-      for (const Item& part : block->second.items) {
+      for (const DxfItem& part : block->items) {
         if (full_ || ++visits_ > most_points_) {
           if (!full_) problem("the rest of the drawing: too many inserts");
           full_ = true;
@@ -371,9 +364,9 @@ class DxfReader {
   bool seen_section_ = false;
   std::optional<DxfEntity> entity_;
   std::optional<DxfEntity> polyline_;  ///< its vertices are being read
-  std::unordered_map<std::string, Block> blocks_;
-  Block* block_ = nullptr;
-  std::vector<Item> items_;
+  detail::DxfBlocks blocks_;
+  DxfBlock* block_ = nullptr;
+  std::vector<DxfItem> items_;
   std::unordered_map<std::string, std::string> layer_colors_;
   detail::DxfBeside beside_;
   std::vector<std::string> problems_;
