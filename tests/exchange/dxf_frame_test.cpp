@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "keyline/exchange/dxf/dxf_reader.h"
 #include "keyline/exchange/dxf/dxf_writer.h"
 
 namespace keyline::exchange {
@@ -143,6 +144,57 @@ TEST(DxfText, NamesHaveNoSignsOfTheirOwnMeaning) {
   EXPECT_EQ(dxf_name("\xc3\xa9*"), "\\U+00E9_");
   EXPECT_EQ(dxf_name("\\U"), "_U");
   EXPECT_EQ(dxf_name(""), "0");
+}
+
+/// The layers of a DXF as they are read from it, of curves on these; and what writing it tells.
+struct OnLayers {
+  std::vector<std::string> read;
+  std::vector<std::string> notes;
+};
+OnLayers on_layers(const std::vector<std::string>& layers) {
+  document::Document d;
+  for (const std::string& layer : layers)
+    d.paths.push_back({{"", layer, ""}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0});
+  const auto dxf = write_dxf(d, {}).value();
+  OnLayers result{{}, dxf.notes};
+  const document::Document read = read_dxf(dxf.content).value();
+  for (const document::NamedPath& named : read.paths) result.read.push_back(named.label.layer);
+  return result;
+}
+
+// No two layers become one, and those that cannot keep their name are told.
+TEST(DxfNames, LayersStayApart) {
+  const OnLayers signs = on_layers({"A/B", "A:B", "A_B", "fine", "A/B"});
+  EXPECT_THAT(signs.read, ElementsAre("A_B_2", "A_B_3", "A_B", "fine", "A_B_2"));
+  EXPECT_THAT(signs.notes,
+              ElementsAre("called otherwise in the file: 2 layers, \"A/B\" as \"A_B_2\", "
+                          "\"A:B\" as \"A_B_3\""));
+  const OnLayers letters = on_layers({"hull", "Hull", "HULL"});
+  EXPECT_THAT(letters.read, ElementsAre("hull", "Hull_2", "HULL_3"));
+  EXPECT_EQ(letters.notes.size(), 1U);
+  const std::string base(300, 'x');
+  const OnLayers cut = on_layers({base + "1", base + "2"});
+  EXPECT_NE(cut.read.at(0), cut.read.at(1));
+  EXPECT_EQ(cut.notes.size(), 1U);
+  const OnLayers kept = on_layers({"0", "", "\xc3\xa9t\xc3\xa9", "a b-c#2"});
+  EXPECT_THAT(kept.read, ElementsAre("0", "0", "\xc3\xa9t\xc3\xa9", "a b-c#2"));
+  EXPECT_TRUE(kept.notes.empty());
+}
+
+// A name that looks like an escape is none: its sign is escaped itself.
+TEST(DxfNames, ComeBackAsTheyWereOrAreTold) {
+  document::Document d;
+  const auto named = [&d](const std::string& name) {
+    d.paths = {{{name, "", ""}, {{{curve::Bezier2{{{0, 0}, {1, 2}}, {}}}}, false}, 0}};
+    const auto dxf = write_dxf(d, {}).value();
+    const std::string read = read_dxf(dxf.content).value().paths.at(0).label.name;
+    return std::pair{read == name, dxf.notes.empty()};
+  };
+  for (const char* name :
+       {"plain", "\\U+0041", "a\\b", "\\\\U+0041", "\xf0\x9f\x98\x80", "C:\\Users", "\\U+005C"})
+    EXPECT_EQ(named(name), (std::pair{true, true})) << name;
+  for (const std::string& name : {std::string("a\nb"), std::string(300, 'n')})
+    EXPECT_EQ(named(name), (std::pair{false, false})) << name;
 }
 
 // DXF reference, "LTYPE": 72 is 65 always, 73 the number of a pattern's elements, 40 its length.

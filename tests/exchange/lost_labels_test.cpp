@@ -29,7 +29,11 @@ TEST(LostLabels, AreThoseTheFormatHasNoPlaceFor) {
     EXPECT_EQ(lost_labels(d, cad), "widths of strokes") << cad;
   EXPECT_EQ(lost_labels(d, ".csv"), "layers, colours, widths of strokes");
   EXPECT_EQ(lost_labels(d, ".glif"), "names, layers, colours, widths of strokes");
+  EXPECT_EQ(lost_labels(d, ".pdf"), "names");
   d.paths.resize(1);
+  d.surfaces.emplace_back();
+  EXPECT_EQ(lost_labels(d, ".csv"), "names, layers, colours, widths of strokes");
+  d.surfaces.clear();
   EXPECT_EQ(lost_labels(d, ".csv"), "names, layers, colours, widths of strokes");
   d.paths[0].stroke_width = 0;
   EXPECT_EQ(lost_labels(d, ".dxf"), "");

@@ -202,6 +202,8 @@ std::string dxf_text(std::string_view name) {
     const unsigned code = core::code_point(name, at);
     if (code < 0x20 || code == 0x7f) {
       result += ' ';
+    } else if (code == '\\' && name.substr(at).starts_with("U+")) {
+      result += "\\U+005C";  // itself, not the sign of an escape
     } else if (code < 0x80) {
       result += static_cast<char>(code);
     } else {
@@ -212,13 +214,10 @@ std::string dxf_text(std::string_view name) {
 }
 
 std::string dxf_name(std::string_view name) {
-  std::string result = dxf_text(name);
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const bool escape = result[i] == '\\' && result.substr(i, 3) == "\\U+";
-    if (!escape && std::string_view("<>/\\\":;?*|=`").find(result[i]) != std::string_view::npos)
-      result[i] = '_';
-  }
-  return result.empty() ? "0" : result;
+  std::string allowed(name);
+  for (char& c : allowed)
+    if (std::string_view("<>/\\\":;?*|=`").find(c) != std::string_view::npos) c = '_';
+  return allowed.empty() ? "0" : dxf_text(allowed);
 }
 
 std::string dxf_file(const DxfText& entities, const std::set<std::string>& layers, int unit) {

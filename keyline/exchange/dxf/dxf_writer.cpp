@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "keyline/exchange/cad/flat_points.h"
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/dxf/dxf_frame.h"
+#include "keyline/exchange/dxf/dxf_names.h"
 #include "keyline/exchange/dxf/dxf_units.h"
 #include "keyline/lac/space/space.h"
 
@@ -39,11 +41,12 @@ class DxfWriter {
   Result<Written> write(const Document& document) {
     if (document.paths.empty() && document.space_curves.empty() && !document.surfaces.empty())
       return core::fail(core::ErrorCode::bad_input, "DXF holds no surfaces", kHoldSurfaces);
+    layers_ = detail::dxf_layers(document);
     for (const auto& named : document.paths)
       if (auto done = add(named); !done) return std::unexpected(done.error());
     for (const auto& named : document.space_curves) add(named);
     note(document);
-    written_.content = detail::dxf_file(body_, layers_, detail::dxf_unit(document.unit));
+    written_.content = detail::dxf_file(body_, used_layers_, detail::dxf_unit(document.unit));
     return std::move(written_);
   }
 
@@ -53,6 +56,8 @@ class DxfWriter {
       written_.notes.push_back(
           core::counted(document.surfaces.size(), "surface is", "surfaces are") +
           " not in the file: DXF holds none");
+    for (std::string& line : detail::changed_names(document, layers_))
+      written_.notes.push_back(std::move(line));
   }
 
   Result<void> add(const document::NamedPath& named) {
@@ -197,8 +202,8 @@ class DxfWriter {
   }
 
   std::string layer_of(const Label& label) {
-    const std::string layer = detail::dxf_name(label.layer.empty() ? "0" : label.layer);
-    layers_.insert(layer);
+    const std::string& layer = layers_.at(label.layer);
+    used_layers_.insert(layer);
     return layer;
   }
 
@@ -223,7 +228,8 @@ class DxfWriter {
   DxfWriteOptions options_;
   Written written_;
   DxfText body_;
-  std::set<std::string> layers_{"0"};
+  std::map<std::string, std::string> layers_;  ///< names in the file by those in the document
+  std::set<std::string> used_layers_{"0"};
 };
 
 }  // namespace

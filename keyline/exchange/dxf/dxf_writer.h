@@ -15,8 +15,8 @@ struct DxfWriteOptions {
 /// with weights, and for space curves LINE, POLYLINE and SPLINE; layers, true colours, $INSUNITS,
 /// and each name as extended data of application KEYLINE, which read_dxf() takes up. Numbers are
 /// printed so that they read back to the same double.
-/// Notes:  surfaces, and a unit DXF has no code for, which the file does not hold.
-/// Fails:  as cad_parts().
+/// Notes:  surfaces, names and layers that a reader finds otherwise, and a unit DXF has no code
+/// for, which the file does not hold. Fails:  as cad_parts().
 core::Result<Written> write_dxf(const document::Document& document, const DxfWriteOptions& options);
 
 }  // namespace keyline::exchange

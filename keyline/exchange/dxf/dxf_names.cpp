@@ -1,0 +1,71 @@
+#include "keyline/exchange/dxf/dxf_names.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "keyline/core/text.h"
+#include "keyline/exchange/dxf/dxf_frame.h"
+#include "keyline/exchange/dxf/dxf_tags.h"
+#include "keyline/exchange/text/ascii.h"
+
+namespace keyline::exchange::detail {
+namespace {
+
+/// As a reader finds it.
+std::string read_back(const std::string& written) { return text_of({.text = written}); }
+
+/// The name, or the first of "name_2", "name_3" … that is not taken.
+std::string taken(std::set<std::string>& in_use, const std::string& name) {
+  std::string free = name;
+  for (int number = 2; !in_use.insert(lower_case(free)).second; ++number)
+    free = name + '_' + std::to_string(number);
+  return free;
+}
+
+using Renamed = std::vector<std::pair<std::string, std::string>>;
+
+void tell(std::vector<std::string>& notes, const Renamed& renamed, const char* one,
+          const char* more) {
+  constexpr std::size_t kTold = 3;
+  if (renamed.empty()) return;
+  std::string note = "called otherwise in the file: " + core::counted(renamed.size(), one, more);
+  for (std::size_t i = 0; i < std::min(kTold, renamed.size()); ++i)
+    note += std::string(", \"") + core::on_one_line(renamed[i].first) + "\" as \"" +
+            renamed[i].second + '"';
+  notes.push_back(note + (renamed.size() > kTold ? " and others" : ""));
+}
+
+}  // namespace
+
+std::map<std::string, std::string> dxf_layers(const document::Document& document) {
+  std::map<std::string, std::string> layers{{"", "0"}, {"0", "0"}};
+  std::set<std::string> in_use{"0"};
+  std::vector<std::string> others;
+  for (const document::Label& label : labels(document)) {
+    if (layers.contains(label.layer)) continue;
+    const std::string name = dxf_name(label.layer);
+    const bool fits = read_back(name) == label.layer && !in_use.contains(lower_case(name));
+    if (!fits) others.push_back(label.layer);
+    if (fits) layers.emplace(label.layer, taken(in_use, name));
+  }
+  for (const std::string& layer : others)
+    if (!layers.contains(layer)) layers.emplace(layer, taken(in_use, dxf_name(layer)));
+  return layers;
+}
+
+std::vector<std::string> changed_names(const document::Document& document,
+                                       const std::map<std::string, std::string>& layers) {
+  Renamed of_layers, of_curves;
+  for (const auto& [layer, name] : layers)
+    if (!layer.empty() && read_back(name) != layer) of_layers.emplace_back(layer, read_back(name));
+  for (const document::Label& label : labels(document))
+    if (const std::string name = read_back(dxf_text(label.name)); name != label.name)
+      of_curves.emplace_back(label.name, name);
+  std::vector<std::string> notes;
+  tell(notes, of_layers, "layer", "layers");
+  tell(notes, of_curves, "curve", "curves");
+  return notes;
+}
+
+}  // namespace keyline::exchange::detail
