@@ -16,7 +16,7 @@ class BegunElsewhere {
   BegunElsewhere(const CurveView& curve, double begin) : curve_(&curve), begin_(begin) {
     std::vector<double> ends = curve.breaks();
     ends.insert(std::ranges::lower_bound(ends, begin), begin);
-    ends.erase(std::ranges::unique(ends).begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     const auto first = std::ranges::find(ends, begin);
     for (auto end = first; end + 1 != ends.end(); ++end) go_on({*end, *(end + 1)});
     for (auto end = ends.begin(); end != first; ++end) go_on({*end, *(end + 1)});
