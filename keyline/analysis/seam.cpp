@@ -27,7 +27,7 @@ class BegunElsewhere {
   const std::vector<double>& breaks() const { return breaks_; }
   /// The curve's own parameter; before a breakpoint, by however little, it is before the curve's.
   double own(double t) const {
-    const auto next = std::ranges::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
+    const auto next = std::upper_bound(breaks_.begin() + 1, breaks_.end() - 1, t);
     const auto i = static_cast<std::size_t>(next - breaks_.begin()) - 1;
     const double last = std::nextafter(from_[i].high, 0.0);
     if (t >= std::nextafter(*next, 0.0)) return last;
