@@ -30,9 +30,10 @@ struct G2Solution {
 /// One piece where one fits (to 1e-12), else two where some two pieces do, else three, the outer
 /// ones equally long where such a chain is found, else short against their end radii. Of several
 /// solutions with as many pieces the one of least absolute turning, and of those (within 1e-9) of
-/// least bending energy. The same chain on the way back and in a mirror. Where one segment joins the poses without regard to curvature it is the
-/// measure of wildness: a solution with a piece that turns by more than 3 pi / 2 and 1.25 times
-/// that segment's turning, or longer than 12 chords and twice the segment, does not count.
+/// least bending energy. The same chain on the way back and in a mirror. Where one segment joins
+/// the poses without regard to curvature it is the measure of wildness: a solution with a piece
+/// that turns by more than 3 pi / 2 and 1.25 times that segment's turning, or longer than 12 chords
+/// and twice the segment, does not count.
 ///
 /// alpha < 0: inflections are allowed. alpha >= 0: curvature keeps one sign, so both curvatures
 /// must be of the sign of the turning and not zero.
