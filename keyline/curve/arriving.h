@@ -1,5 +1,6 @@
 #pragma once
 
+#include "keyline/curve/concept.h"
 #include "keyline/curve/jet.h"
 
 namespace keyline::curve {
@@ -9,5 +10,11 @@ namespace keyline::curve {
 /// coincide.
 double arriving_angle(const Jet2& jet);
 core::Vector2 arriving_tangent(const Jet2& jet);
+
+/// Direction of travel at a parameter of a curve, at its end that in which it arrives.
+template <PlanarCurve C>
+double travel_angle(const C& c, double t) {
+  return t < 1 ? tangent_angle(jet(c, t)) : arriving_angle(jet(c, t));
+}
 
 }  // namespace keyline::curve

@@ -68,11 +68,11 @@ std::vector<double> interpolating_knots(const std::vector<ToPass>& points, int o
   std::ranges::sort(at);
   at.erase(std::unique(at.begin(), at.end()), at.end());
   const std::size_t count = at.size(), degree = static_cast<std::size_t>(order) - 1;
-  const std::size_t ends = closed ? 0 : degree + 1;
+  const std::size_t first = closed ? 0 : 1, ends = closed ? 0 : degree + 1;
   std::vector<double> knots;
   for (std::size_t i = 0; i + ends < count; ++i) {
     double sum = 0;
-    for (std::size_t j = i + (closed ? 0 : 1); j < i + (closed ? 0 : 1) + degree; ++j)
+    for (std::size_t j = i + first; j < i + first + degree; ++j)
       sum += at[j % count] + static_cast<double>(j / count);
     const double mean = sum / static_cast<double>(degree);
     knots.push_back(closed ? mean - std::floor(mean) : mean);
@@ -84,7 +84,7 @@ std::vector<double> interpolating_knots(const std::vector<ToPass>& points, int o
 }  // namespace
 
 core::Result<std::optional<LeastSquaresSpline>> passing(const SplineOf& spline_of,
-                                                        std::vector<double> knots,
+                                                        const std::vector<double>& knots,
                                                         const SplineData& data, bool closed,
                                                         const std::vector<ToPass>& points) {
   auto spline = spline_of(knots);

@@ -26,7 +26,7 @@ using SplineOf = std::function<std::optional<LeastSquaresSpline>(const std::vect
 /// some spline interpolates the points. Empty where the knots have no spline.
 /// Fails: not_converged, with the point that is missed most, where those miss one, too.
 core::Result<std::optional<LeastSquaresSpline>> passing(const SplineOf& spline_of,
-                                                        std::vector<double> knots,
+                                                        const std::vector<double>& knots,
                                                         const SplineData& data, bool closed,
                                                         const std::vector<ToPass>& points);
 

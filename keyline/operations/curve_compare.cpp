@@ -126,10 +126,7 @@ Result<CompareResult> run(const CompareRequest& request, const Context&) {
   for (const std::size_t i : {0, 1}) {
     const auto t = static_cast<double>(i);
     result.ends[i] = core::distance(evaluate(a, t), evaluate(b, t));
-    const auto direction = [i, t](const document::Path& c) {
-      return i == 0 ? curve::tangent_angle(jet(c, t)) : curve::arriving_angle(jet(c, t));
-    };
-    result.end_angles[i] = core::wrap_angle(direction(b) - direction(a));
+    result.end_angles[i] = core::wrap_angle(curve::travel_angle(b, t) - curve::travel_angle(a, t));
   }
   result.combs = {comb_of(a, request.places), comb_of(b, request.places)};
   return result;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "keyline/analysis/profile.h"
+#include "keyline/curve/arriving.h"
 #include "keyline/document/closest_point.h"
 #include "keyline/document/cusped.h"
 #include "keyline/operations/ends.h"
@@ -108,7 +109,7 @@ Result<PointDeviation> run(const DeviationRequest& request, const Context& conte
     result.arc_length.push_back(table.length_at(foot.t));
     result.distance.push_back(side.is_left(foot, p) ? foot.distance : -foot.distance);
     result.feet.push_back(foot.point);
-    result.direction.push_back(curve::tangent_angle(jet(view, foot.t)));
+    result.direction.push_back(curve::travel_angle(view, foot.t));
     result.max = std::max(result.max, foot.distance);
     squares += foot.distance * foot.distance;
   }

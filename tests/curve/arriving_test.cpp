@@ -17,6 +17,8 @@ TEST(Arriving, IsTheWayTravelTook) {
   EXPECT_EQ(tangent_angle(jet(straight, 0)), 0);
   const Bezier2 bent{{{0, 0}, {1, 0}, {2, 1}, {2, 1}}, {}};
   EXPECT_NEAR(arriving_angle(jet(bent, 1)), core::kPi / 4, 1e-15);
+  EXPECT_NEAR(travel_angle(bent, 1), core::kPi / 4, 1e-15);
+  EXPECT_EQ(travel_angle(bent, 0), 0);
   const core::Vector2 tangent = arriving_tangent(jet(bent, 1));
   EXPECT_NEAR(tangent.x, std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(tangent.y, std::sqrt(0.5), 1e-15);

@@ -28,6 +28,11 @@ TEST(CurveDeviation, TellsPlaceAndSideOfPoints) {
   EXPECT_NEAR(told["rms"].get<double>(), std::sqrt((0.25 + 4 + 25) / 3), 1e-12);
 }
 
+TEST(CurveDeviation, TellsTheDirectionInWhichACurveArrives) {
+  const json drawn_in{{"type", "bezier"}, {"points", {{0, 0}, {0, 0}, {3, 0}, {3, 0}}}};
+  EXPECT_EQ(measured(drawn_in, {{3, 1}})["direction"][0], 0);
+}
+
 /// Of each point, whether it is told to lie on the left of travel.
 std::vector<bool> left_of(const json& curve, const json& points) {
   std::vector<bool> left;
