@@ -155,7 +155,7 @@ double curve_length(const Working& work, bool closed, std::size_t stride) {
 
 /// Fewer points than these cannot tell noise from bends: what windows leave is mostly shape.
 constexpr std::size_t kTelling = 16;
-constexpr double kMostOfFew = 3e-4;  // of the length: the noise of those
+constexpr double kMostUntold = 3e-4;  // of the length: noise that may as well be bends
 
 /// Of the errors of rounding: residuals of that many show that there are such errors.
 constexpr double kRoundingShows = 0.25;
@@ -215,12 +215,15 @@ double rounding_of(const Working& work, const Texture& texture, const Steps& ste
   return shows(work, texture, steps.common) ? std::max(steps.common, steps.decimal) : steps.decimal;
 }
 
-/// Noise from the residuals, at least that of the rounding where there is one. Integers may also be
-/// exact coordinates of a small figure.
+/// Noise from the residuals, of which little may be bends, and at least that of the rounding where
+/// there is one. Integers may also be exact coordinates of a small figure.
 double noise_of(const Working& work, bool closed, const Texture& texture, double rounding) {
-  const double most = kMostOfFew * core::polygon_length(work.points, closed);
-  const bool telling = work.points.size() >= kTelling;
-  const double estimate = telling ? texture.noise : std::min(texture.noise, most);
+  const double most = kMostUntold * core::polygon_length(work.points, closed);
+  double estimate = std::min(texture.noise, most);
+  if (work.points.size() >= kTelling && texture.noise > most) {
+    estimate =
+        std::max(estimate, noise_beyond_bends(work.points, closed, texture.stride, texture.noise));
+  }
   if (work.points.size() < 8) return estimate;
   const double of_rounding = rounding / std::sqrt(12.0);
   return std::max(estimate,

@@ -35,6 +35,9 @@ constexpr std::size_t kScales = 100;
 constexpr double kStays = 1.15;  // a doubling lets a rough line grow by 1.4, a bend by 4 and more
 constexpr double kLastDigits = 16;  // epsilons that shifts and factors leave wrong at most
 constexpr double kAskew = 2;        // mean over median beyond which there is more than chance
+// Residuals of bends grow at least so when points lie twice as far apart: windows are of degree 2
+// and more, and leave the cube of their spacing.
+constexpr double kBendGrowth = 8;
 
 /// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
 /// two thirds.
@@ -95,15 +98,22 @@ double advancing_share(std::span<const core::Point2> points, bool closed, std::s
   return windows == 0 ? 1 : static_cast<double>(advancing) / static_cast<double>(windows);
 }
 
+/// What becomes of windows that turn too far for the graph of a function.
+enum class TurnedWindows { left_out, endless };
+
 /// Variance in windows of one kind; infinite where there is none.
-double variance_in(std::span<const core::Point2> points, bool closed, Window w,
-                   std::size_t stride) {
+double variance_in(std::span<const core::Point2> points, bool closed, Window w, std::size_t stride,
+                   TurnedWindows turned) {
   std::vector<double> variances;
   const int freedom = w.points - w.degree - 1;
   for_windows(points, closed, static_cast<std::size_t>(w.points), stride,
               [&](std::span<const core::Point2> window) {
                 const auto fit = detail::LocalFit::make(window, w.degree);
-                if (fit) variances.push_back(fit->squared_residuals() / freedom);
+                if (fit) {
+                  variances.push_back(fit->squared_residuals() / freedom);
+                } else if (turned == TurnedWindows::endless) {
+                  variances.push_back(std::numeric_limits<double>::infinity());
+                }
               });
   if (variances.empty()) return std::numeric_limits<double>::infinity();
   const Usual chance = usual(freedom);
@@ -111,6 +121,30 @@ double variance_in(std::span<const core::Point2> points, bool closed, Window w,
   const double median = core::quantile(std::move(variances)) / chance.median;
   // The mean is the surer of the two where chance is all there is; bends spoil it first.
   return mean <= kAskew * median ? mean : median;
+}
+
+/// Variance told by points that many apart; empty where there is no window of them.
+std::optional<double> estimate_variance(std::span<const core::Point2> points, bool closed,
+                                        std::size_t stride, TurnedWindows turned) {
+  std::array<double, kWindows.size()> variance;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < kWindows.size(); ++k) {
+    const Window& w = kWindows[k];
+    const std::size_t enough = static_cast<std::size_t>(w.degree == 5 ? w.points + 4 : w.points);
+    variance[k] = points.size() < enough ? std::numeric_limits<double>::infinity()
+                                         : variance_in(points, closed, w, stride, turned);
+    least = std::min(least, variance[k]);
+  }
+  if (!std::isfinite(least)) return std::nullopt;
+  // Curvature only enlarges an estimate, chance also lowers it: those near the least are averaged.
+  double sum = 0, weight = 0;
+  for (std::size_t k = 0; k < kWindows.size(); ++k) {
+    if (!(variance[k] <= kAlike * least)) continue;
+    const double freedom = 1 - static_cast<double>(kWindows[k].degree + 1) / kWindows[k].points;
+    sum += freedom * variance[k];
+    weight += freedom;
+  }
+  return sum / weight;
 }
 
 /// Exponent of the last decimal place value is written with (-2 for 0.25, 1 for 130), and its
@@ -218,25 +252,16 @@ bool noise_stays(std::span<const core::Point2> points, bool closed, double noise
 }
 
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride) {
-  std::array<double, kWindows.size()> variance;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < kWindows.size(); ++k) {
-    const Window& w = kWindows[k];
-    const std::size_t enough = static_cast<std::size_t>(w.degree == 5 ? w.points + 4 : w.points);
-    variance[k] = points.size() < enough ? std::numeric_limits<double>::infinity()
-                                         : variance_in(points, closed, w, stride);
-    least = std::min(least, variance[k]);
-  }
-  if (!std::isfinite(least)) return 0;
-  // Curvature only enlarges an estimate, chance also lowers it: those near the least are averaged.
-  double sum = 0, weight = 0;
-  for (std::size_t k = 0; k < kWindows.size(); ++k) {
-    if (!(variance[k] <= kAlike * least)) continue;
-    const double freedom = 1 - static_cast<double>(kWindows[k].degree + 1) / kWindows[k].points;
-    sum += freedom * variance[k];
-    weight += freedom;
-  }
-  return std::sqrt(sum / weight);
+  return std::sqrt(estimate_variance(points, closed, stride, TurnedWindows::left_out).value_or(0));
+}
+
+double noise_beyond_bends(std::span<const core::Point2> points, bool closed, std::size_t stride,
+                          double noise) {
+  const auto apart = estimate_variance(points, closed, 2 * stride, TurnedWindows::endless);
+  if (!apart) return 0;
+  if (*apart <= kStays * kStays * noise * noise) return noise;  // what little it grew is chance
+  constexpr double kGrowth = kBendGrowth * kBendGrowth;
+  return std::sqrt(std::max(0.0, (kGrowth * noise * noise - *apart) / (kGrowth - 1)));
 }
 
 double estimate_rounding(const RawCurve& raw) { return finest_step(raw, step_of_values); }

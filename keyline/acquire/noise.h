@@ -19,6 +19,12 @@ double estimate_noise(std::span<const core::Point2> points, bool closed);
 /// The same from points that many apart: waves longer than about ten times that are shape.
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride);
 
+/// What of that noise, told by points `stride` apart, cannot be bends: errors stay as they are
+/// between points twice as far apart, residuals of bends grow by 2^3 and more there, and windows
+/// that turn too far to be the graph of a function are bends. 0 where all may be bends.
+double noise_beyond_bends(std::span<const core::Point2> points, bool closed, std::size_t stride,
+                          double noise);
+
 /// Noise whose neighbours err alike, as a scanned surface's roughness does.
 struct Texture {
   double noise = 0;

@@ -25,69 +25,113 @@ constexpr double kBend = 0.9;    // largest turn at the ends of the gap, radians
 constexpr double kJump = 12;           // far away: this many times the steps around
 constexpr std::ptrdiff_t kAround = 5;  // of which there are so many on each side
 
-struct Neighbours {
-  std::array<core::Point2, 2 * kSide> points;
-  double spacing = 0;  // largest step between neighbours on one side
+/// Points that may be strays together, ahead of the first of them. Those between them count as
+/// neighbours.
+struct Suspects {
+  std::array<std::size_t, 3> ahead;
+  std::size_t count;
 };
 
-/// Neighbours of the run [first, last], `stride` apart; false near the ends of open curves. Where
-/// the points come back from a single one to where they left, that place is a neighbour once.
-bool collect(std::span<const core::Point2> points, bool closed, std::size_t first, std::size_t last,
-             std::size_t stride, Neighbours& out) {
+constexpr std::array<Suspects, 3> kRuns{{{{0}, 1}, {{0, 1}, 2}, {{0, 1, 2}, 3}}};
+/// Such as hide one another: each would be among the neighbours of the other.
+constexpr std::array<Suspects, 8> kApart{{{{0, 2}, 2},
+                                          {{0, 3}, 2},
+                                          {{0, 1, 3}, 3},
+                                          {{0, 2, 3}, 3},
+                                          {{0, 1, 4}, 3},
+                                          {{0, 2, 4}, 3},
+                                          {{0, 3, 4}, 3},
+                                          {{0, 2, 5}, 3}}};
+
+std::size_t last_ahead(const Suspects& suspects) { return suspects.ahead[suspects.count - 1]; }
+
+/// Unsuspected points on both sides of the suspects and between them, in order.
+struct Neighbours {
+  std::array<core::Point2, 2 * kSide + 3> list;
+  std::size_t count = 0;
+  double spacing = 0;  // largest step between neighbours on one side
+
+  std::span<const core::Point2> points() const { return {list.data(), count}; }
+  void add(core::Point2 p) { list[count++] = p; }
+};
+
+/// Neighbours of the suspects from `first` on, `stride` apart; false near the ends of open curves.
+/// Where the points come back from a single one to where they left, that place is a neighbour once.
+bool collect(std::span<const core::Point2> points, bool closed, std::size_t first,
+             const Suspects& suspects, std::size_t stride, Neighbours& out) {
   const std::size_t n = points.size();
-  const std::size_t reach = kSide * stride;
-  const bool back = first == last && points[(first + n - 1) % n] == points[(last + 1) % n];
+  const std::size_t reach = kSide * stride, last = first + last_ahead(suspects);
+  const bool back = suspects.count == 1 && points[(first + n - 1) % n] == points[(last + 1) % n];
   const std::size_t next = back ? last + 1 : last;
   if (!closed && (first < reach || next + reach >= n)) return false;
-  for (std::size_t k = 1; k <= kSide; ++k) {
-    out.points[kSide - k] = points[(first + n - k * stride) % n];
-    out.points[kSide - 1 + k] = points[(next + k * stride) % n];
-  }
-  out.spacing = 0;
+  for (std::size_t k = kSide; k >= 1; --k) out.add(points[(first + n - k * stride) % n]);
+  for (std::size_t k = 1; k < last_ahead(suspects); ++k)
+    if (std::ranges::find(suspects.ahead, k) == suspects.ahead.end())
+      out.add(points[(first + k) % n]);
+  for (std::size_t k = 1; k <= kSide; ++k) out.add(points[(next + k * stride) % n]);
   for (std::size_t k = 1; k < kSide; ++k) {
-    out.spacing = std::max({out.spacing, core::distance(out.points[k - 1], out.points[k]),
-                            core::distance(out.points[kSide + k - 1], out.points[kSide + k])});
+    const std::size_t after = out.count - kSide + k;
+    out.spacing = std::max({out.spacing, core::distance(out.list[k - 1], out.list[k]),
+                            core::distance(out.list[after - 1], out.list[after])});
   }
   return true;
 }
 
-/// True where leaving the run out turns no corner: the tip of a fin is no stray.
-bool bridge_is_smooth(const Neighbours& around) {
-  const auto& p = around.points;
-  const core::Vector2 before = p[kSide - 1] - p[kSide - 2];
-  const core::Vector2 bridge = p[kSide] - p[kSide - 1];
-  const core::Vector2 after = p[kSide + 1] - p[kSide];
-  return std::abs(core::angle_between(before, bridge)) < kBend &&
-         std::abs(core::angle_between(bridge, after)) < kBend;
+/// True where leaving the suspects out turns no corner: the tip of a fin is no stray.
+bool bridges_are_smooth(const Neighbours& around) {
+  for (std::size_t k = kSide - 1; k + kSide <= around.count; ++k) {
+    const core::Vector2 before = around.list[k] - around.list[k - 1];
+    const core::Vector2 after = around.list[k + 1] - around.list[k];
+    if (std::abs(core::angle_between(before, after)) >= kBend) return false;
+  }
+  return true;
 }
 
-/// The curve through the neighbours of a run: the fit and the least residual that makes a stray.
+/// The curve through the neighbours of suspects: the fit, and the least residual that makes each of
+/// them a stray.
 struct Expected {
   detail::LocalFit fit;
-  double far = 0;
+  std::array<double, 3> far;
 };
 
-std::optional<Expected> expected_at(std::span<const core::Point2> points, bool closed,
-                                    std::size_t first, std::size_t count, double noise,
-                                    std::size_t stride) {
-  Neighbours around;
-  if (!collect(points, closed, first, first + count - 1, stride, around)) return std::nullopt;
-  const auto fit = detail::LocalFit::make(around.points, 3);
-  if (!fit) return std::nullopt;
-  const double freedom = 2 * kSide - 4;
-  const double misfit = std::sqrt(fit->squared_residuals() / freedom);
-  const double bridge = core::distance(around.points[kSide - 1], around.points[kSide]);
-  if (bridge > kBridge * static_cast<double>(count + 1) * around.spacing) return std::nullopt;
-  if (!bridge_is_smooth(around)) return std::nullopt;
-  const double aside = (count == 1 ? kAside : kRunAside) * bridge;
-  return Expected{*fit, std::max({kFar * std::max(noise, misfit), 0.25 * around.spacing, aside})};
+/// Sets the least residuals of the suspects beside the gaps they leave; false where one is too wide
+/// to know what runs there.
+bool far_for_gaps(const Suspects& suspects, const Neighbours& around, std::array<double, 3>& far) {
+  for (std::size_t k = 0; k < suspects.count;) {
+    std::size_t run = 1;
+    while (k + run < suspects.count && suspects.ahead[k + run] == suspects.ahead[k] + run) ++run;
+    const std::size_t before = kSide - 1 + suspects.ahead[k] - k;  // the neighbour ahead of the gap
+    const double bridge = core::distance(around.list[before], around.list[before + 1]);
+    if (bridge > kBridge * static_cast<double>(run + 1) * around.spacing) return false;
+    const double aside = (run == 1 ? kAside : kRunAside) * bridge;
+    for (std::size_t j = 0; j < run; ++j) far[k + j] = std::max(far[k + j], aside);
+    k += run;
+  }
+  return true;
 }
 
-bool is_stray_run(std::span<const core::Point2> points, std::size_t first, std::size_t count,
-                  const Expected& expected, double usual) {
-  const double far = std::max(expected.far, kUsual * usual);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (std::abs(expected.fit.residual(points[(first + k) % points.size()])) < far) return false;
+std::optional<Expected> expected_at(std::span<const core::Point2> points, bool closed,
+                                    std::size_t first, const Suspects& suspects, double noise,
+                                    std::size_t stride) {
+  Neighbours around;
+  if (!collect(points, closed, first, suspects, stride, around)) return std::nullopt;
+  const auto fit = detail::LocalFit::make(around.points(), 3);
+  if (!fit) return std::nullopt;
+  const double freedom = static_cast<double>(around.count) - 4;
+  const double misfit = std::sqrt(fit->squared_residuals() / freedom);
+  Expected expected{*fit, {}};
+  expected.far.fill(std::max(kFar * std::max(noise, misfit), 0.25 * around.spacing));
+  if (!far_for_gaps(suspects, around, expected.far) || !bridges_are_smooth(around))
+    return std::nullopt;
+  return expected;
+}
+
+bool are_strays(std::span<const core::Point2> points, std::size_t first, const Suspects& suspects,
+                const Expected& expected, double usual) {
+  for (std::size_t k = 0; k < suspects.count; ++k) {
+    const core::Point2 p = points[(first + suspects.ahead[k]) % points.size()];
+    if (std::abs(expected.fit.residual(p)) < std::max(expected.far[k], kUsual * usual))
+      return false;
   }
   return true;
 }
@@ -99,7 +143,7 @@ double usual_residual(std::span<const core::Point2> points, bool closed, double 
   std::vector<double> residuals;
   const std::size_t skip = std::max<std::size_t>(1, points.size() / 4000);
   for (std::size_t i = 0; i < points.size(); i += skip) {
-    const auto expected = expected_at(points, closed, i, 1, noise, stride);
+    const auto expected = expected_at(points, closed, i, kRuns.front(), noise, stride);
     if (expected) residuals.push_back(std::abs(expected->fit.residual(points[i])));
   }
   return core::quantile(std::move(residuals), 3, 4);
@@ -161,15 +205,27 @@ std::vector<std::size_t> find_outliers(std::span<const core::Point2> points, boo
   const std::size_t n = points.size();
   if (n < 2 * kSide * stride + 4) return strays;
   const double usual = usual_residual(points, closed, noise, stride);
-  std::size_t i = 0;
-  while (i < n) {
-    std::size_t run = 0;
-    for (std::size_t count = 1; count <= 3 && run == 0; ++count) {
-      const auto expected = expected_at(points, closed, i, count, noise, stride);
-      if (expected && is_stray_run(points, i, count, *expected, usual)) run = count;
+  // Those that start at i; null where none do.
+  const auto starting_at = [&](std::size_t i) -> const Suspects* {
+    const auto found = [&](const Suspects& suspects) {
+      const auto expected = expected_at(points, closed, i, suspects, noise, stride);
+      return expected && are_strays(points, i, suspects, *expected, usual);
+    };
+    const auto run = std::ranges::find_if(kRuns, found);
+    if (run != kRuns.end()) return &*run;
+    if (stride > 1) return nullptr;
+    const auto apart = std::ranges::find_if(kApart, found);
+    return apart != kApart.end() ? &*apart : nullptr;
+  };
+  for (std::size_t i = 0; i < n;) {
+    const Suspects* suspects = starting_at(i);
+    if (suspects == nullptr) {
+      ++i;
+      continue;
     }
-    for (std::size_t k = 0; k < run; ++k) strays.push_back(i + k);
-    i += std::max<std::size_t>(run, 1);
+    for (std::size_t k = 0; k < suspects->count; ++k)
+      strays.push_back((i + suspects->ahead[k]) % n);
+    i += last_ahead(*suspects) + 1;
   }
   add_far_strays(points, closed, strays);
   std::sort(strays.begin(), strays.end());

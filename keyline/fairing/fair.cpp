@@ -228,6 +228,7 @@ class Job {
   Result<FairResult> run_region() {
     const core::Interval region = *options_.region;
     runs_ = detail::smooth_runs(line_, false);
+    detail::pass_through(runs_, options_.must_pass);
     fit::SplineFitOptions of_whole = detail::fit_of(runs_[0], spline_options());
     of_whole.progress = core::part_of(options_.progress, 0, 0.4);
     const auto whole = fit::fit_spline(runs_[0].points, runs_[0].weights, of_whole);
@@ -239,6 +240,7 @@ class Job {
                   "choose a larger region", "region");
     const curve::BSpline2 inside = subcurve(whole->curve, range.t_first, range.t_last);
     runs_ = {detail::run_between(line_, range.first, range.last)};
+    detail::pass_through(runs_, options_.must_pass);
     if (auto sound = detail::bound_runs(runs_, line_, options_, result_.tolerance); !sound)
       return std::unexpected(sound.error());
     const bool from_start = range.first == 0 && !line_.closed;

@@ -65,12 +65,15 @@ std::vector<Run> smooth_runs(const acquire::KeyLine& line, bool at_corners) {
   return runs;
 }
 
-std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
-  std::vector<Run> runs = smooth_runs(line, options.keep_corners);
+void pass_through(std::vector<Run>& runs, const std::vector<std::size_t>& must_pass) {
   for (Run& run : runs)
     for (std::size_t k = 0; k < run.index.size(); ++k)
-      if (std::ranges::find(options.must_pass, run.index[k]) != options.must_pass.end())
-        run.must_pass.push_back(k);
+      if (std::ranges::find(must_pass, run.index[k]) != must_pass.end()) run.must_pass.push_back(k);
+}
+
+std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
+  std::vector<Run> runs = smooth_runs(line, options.keep_corners);
+  pass_through(runs, options.must_pass);
   if (line.closed) return runs;
   runs.front().clamp_start = options.clamp.start;
   runs.back().clamp_end = options.clamp.end;

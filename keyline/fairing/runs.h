@@ -13,6 +13,9 @@ std::vector<Run> smooth_runs(const acquire::KeyLine& line, bool at_corners = tru
 /// The same, cut as `options` ask; they know what they pass and how they end.
 std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options);
 
+/// Runs learn which of the key-line's points, told by their indices, they pass through.
+void pass_through(std::vector<Run>& runs, const std::vector<std::size_t>& must_pass);
+
 /// Points first … last of the key-line as one open run.
 Run run_between(const acquire::KeyLine& line, std::size_t first, std::size_t last);
 

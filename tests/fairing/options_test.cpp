@@ -56,37 +56,6 @@ TEST(FairOptions, SigmasAreTheToleranceInNoise) {
   EXPECT_EQ(fair(line, options).error().path, "sigmas");
 }
 
-TEST(FairOptions, RegionKeepsTheRest) {
-  FairOptions options;
-  options.region = core::Interval{0.25, 0.7};
-  const FairResult result = fair(bow(), options).value();
-  ASSERT_EQ(result.curves.size(), 3U);
-  EXPECT_TRUE(std::holds_alternative<curve::BSpline2>(result.curves[0]));
-  EXPECT_TRUE(std::holds_alternative<lac::Chain>(result.curves[1]));
-  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9 * result.length);
-}
-
-TEST(FairOptions, RegionOfAClosedOutlineKeepsTheRest) {
-  std::vector<core::Point2> ellipse;
-  for (int i = 0; i < 240; ++i) {
-    const double t = 2 * core::kPi * i / 240;
-    ellipse.push_back({3 * std::cos(t), std::sin(t)});
-  }
-  const acquire::KeyLine line = testing::line_through(ellipse);
-  ASSERT_TRUE(line.closed);
-  FairOptions options;
-  for (const core::Interval region : {core::Interval{0.1, 0.4}, {0, 0.3}, {0.6, 1}}) {
-    options.region = region;
-    const FairResult result = fair(line, options).value();
-    EXPECT_TRUE(result.within_tolerance);
-    ASSERT_GE(result.curves.size(), 2U);
-    for (const auto& joint : result.joints) {
-      EXPECT_LE(joint.gap, 1e-9 * result.length) << region.low;
-      EXPECT_LE(std::abs(joint.angle), 1e-6) << region.low;
-    }
-  }
-}
-
 TEST(FairOptions, MustPassPasses) {
   FairOptions options;
   options.must_pass = {50, 100};
