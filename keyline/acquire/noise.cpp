@@ -35,26 +35,28 @@ constexpr std::size_t kScales = 100;
 constexpr double kStays = 1.15;  // a doubling lets a rough line grow by 1.4, a bend by 4 and more
 constexpr double kLastDigits = 16;  // epsilons that shifts and factors leave wrong at most
 constexpr double kAskew = 2;        // mean over median beyond which there is more than chance
-// Residuals of bends grow at least so when points lie twice as far apart: windows are of degree 2
-// and more, and leave the cube of their spacing.
+// Residuals of bends grow so when points lie twice as far apart: windows are of degree 2 and more,
+// and leave the cube of their spacing. Less than half of that is a mixture with little of them.
 constexpr double kBendGrowth = 8;
+constexpr double kBendsShow = kBendGrowth / 2;
 
-/// Of chi-squared variables over their degrees of freedom: the median, and the mean of the least
-/// two thirds.
+/// Of chi-squared variables over their degrees of freedom: the median, the mean of the least two
+/// thirds, and what a third of them stays below.
 struct Usual {
   double median;
   double kept_mean;
+  double third;
 };
 Usual usual(int freedom) {
   switch (freedom) {
     case 1:
-      return {0.45494, 0.27487};
+      return {0.45494, 0.27487, 0.18553};
     case 2:
-      return {0.69315, 0.45069};
+      return {0.69315, 0.45069, 0.40547};
     case 5:
-      return {0.87029, 0.64268};
+      return {0.87029, 0.64268, 0.64328};
     default:
-      return {0.90655, 0.69751};  // 7
+      return {0.90655, 0.69751, 0.70644};  // 7
   }
 }
 
@@ -98,12 +100,13 @@ double advancing_share(std::span<const core::Point2> points, bool closed, std::s
   return windows == 0 ? 1 : static_cast<double>(advancing) / static_cast<double>(windows);
 }
 
-/// What becomes of windows that turn too far for the graph of a function.
-enum class TurnedWindows { left_out, endless };
+/// Which windows tell: the most, without those that turn too far for the graph of a function, or
+/// the quietest third of all, where nothing is but noise and the bends of the whole.
+enum class Telling { most, quietest };
 
 /// Variance in windows of one kind; infinite where there is none.
 double variance_in(std::span<const core::Point2> points, bool closed, Window w, std::size_t stride,
-                   TurnedWindows turned) {
+                   Telling telling) {
   std::vector<double> variances;
   const int freedom = w.points - w.degree - 1;
   for_windows(points, closed, static_cast<std::size_t>(w.points), stride,
@@ -111,12 +114,14 @@ double variance_in(std::span<const core::Point2> points, bool closed, Window w, 
                 const auto fit = detail::LocalFit::make(window, w.degree);
                 if (fit) {
                   variances.push_back(fit->squared_residuals() / freedom);
-                } else if (turned == TurnedWindows::endless) {
+                } else if (telling == Telling::quietest) {
                   variances.push_back(std::numeric_limits<double>::infinity());
                 }
               });
   if (variances.empty()) return std::numeric_limits<double>::infinity();
   const Usual chance = usual(freedom);
+  if (telling == Telling::quietest)
+    return core::quantile(std::move(variances), 1, 3) / chance.third;
   const double mean = kept_mean(variances) / chance.kept_mean;
   const double median = core::quantile(std::move(variances)) / chance.median;
   // The mean is the surer of the two where chance is all there is; bends spoil it first.
@@ -125,14 +130,14 @@ double variance_in(std::span<const core::Point2> points, bool closed, Window w, 
 
 /// Variance told by points that many apart; empty where there is no window of them.
 std::optional<double> estimate_variance(std::span<const core::Point2> points, bool closed,
-                                        std::size_t stride, TurnedWindows turned) {
+                                        std::size_t stride, Telling telling) {
   std::array<double, kWindows.size()> variance;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kWindows.size(); ++k) {
     const Window& w = kWindows[k];
     const std::size_t enough = static_cast<std::size_t>(w.degree == 5 ? w.points + 4 : w.points);
     variance[k] = points.size() < enough ? std::numeric_limits<double>::infinity()
-                                         : variance_in(points, closed, w, stride, turned);
+                                         : variance_in(points, closed, w, stride, telling);
     least = std::min(least, variance[k]);
   }
   if (!std::isfinite(least)) return std::nullopt;
@@ -252,16 +257,17 @@ bool noise_stays(std::span<const core::Point2> points, bool closed, double noise
 }
 
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride) {
-  return std::sqrt(estimate_variance(points, closed, stride, TurnedWindows::left_out).value_or(0));
+  return std::sqrt(estimate_variance(points, closed, stride, Telling::most).value_or(0));
 }
 
 double noise_beyond_bends(std::span<const core::Point2> points, bool closed, std::size_t stride,
                           double noise) {
-  const auto apart = estimate_variance(points, closed, 2 * stride, TurnedWindows::endless);
-  if (!apart) return 0;
-  if (*apart <= kStays * kStays * noise * noise) return noise;  // what little it grew is chance
-  constexpr double kGrowth = kBendGrowth * kBendGrowth;
-  return std::sqrt(std::max(0.0, (kGrowth * noise * noise - *apart) / (kGrowth - 1)));
+  const auto near = estimate_variance(points, closed, stride, Telling::quietest);
+  const auto apart = estimate_variance(points, closed, 2 * stride, Telling::quietest);
+  if (!near || !apart) return 0;
+  if (*apart <= kBendsShow * kBendsShow * *near) return noise;
+  constexpr double kMost = kBendGrowth * kBendGrowth;
+  return noise * std::sqrt(std::max(0.0, (kMost - *apart / *near) / (kMost - 1)));
 }
 
 double estimate_rounding(const RawCurve& raw) { return finest_step(raw, step_of_values); }

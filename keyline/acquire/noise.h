@@ -20,8 +20,9 @@ double estimate_noise(std::span<const core::Point2> points, bool closed);
 double estimate_noise(std::span<const core::Point2> points, bool closed, std::size_t stride);
 
 /// What of that noise, told by points `stride` apart, cannot be bends: errors stay as they are
-/// between points twice as far apart, residuals of bends grow by 2^3 and more there, and windows
-/// that turn too far to be the graph of a function are bends. 0 where all may be bends.
+/// between points twice as far apart, residuals of bends grow eightfold there, and windows that
+/// turn too far to be the graph of a function are bends. The quietest third of the windows tells:
+/// features make the others grow. 0 where all may be bends; the noise where they are little of it.
 double noise_beyond_bends(std::span<const core::Point2> points, bool closed, std::size_t stride,
                           double noise);
 

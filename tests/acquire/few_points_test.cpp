@@ -52,15 +52,15 @@ TEST(FewPoints, ErrAsMuchAsTheyDo) {
   }
 }
 
-/// Errors at twice the spacing are as large: all of them are errors. Residuals that are nine times
-/// as large there may all be bends.
+/// Errors at twice the spacing are as large: all of them are errors. What exact points of a curve
+/// leave is bends.
 TEST(NoiseBeyondBends, KeepsWhatDoesNotGrow) {
   numeric::Random random(7);
-  std::vector<core::Point2> errors;
+  std::vector<core::Point2> errors, bends;
   for (int i = 0; i < 400; ++i) errors.push_back({double(i), 0.1 * random.normal()});
-  const double noise = estimate_noise(errors, false);
-  EXPECT_NEAR(noise_beyond_bends(errors, false, 1, noise), noise, 0.01 * noise);
-  EXPECT_EQ(noise_beyond_bends(errors, false, 1, noise / 9), 0);
+  EXPECT_EQ(noise_beyond_bends(errors, false, 1, 0.1), 0.1);
+  for (const core::Point3& p : ellipse(24, 0, random).points) bends.push_back({p.x, p.y});
+  EXPECT_EQ(noise_beyond_bends(bends, true, 1, 0.1), 0);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "keyline/curve/conversion.h"
 
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -195,12 +194,12 @@ TEST(PiecewiseBezier, ParametersBeyondTheEndsAreTheEnds) {
   EXPECT_EQ(evaluate(two, 0.25), (core::Point2{2, 3}));
 }
 
-// As many pieces as there are short cubics, not one fewer: looking for fewer took five seconds.
-TEST(Cubics, ToleranceBelowRoundingIsGivenUpAtOnce) {
+// What doubles cannot do is told, and done as well as they can: no tolerance asks for more pieces.
+TEST(Cubics, ToleranceBelowRoundingIsGivenUp) {
   const Bezier2 c{{{0, 1e30}, {1, 0}, {2, 0.6}, {2.5, 1.6}}, {1, 2, 0.5, 1}};
-  const auto start = std::chrono::steady_clock::now();
-  EXPECT_GT(approximate_by_cubics(c, 1e-3).deviation, 1e-3);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(4));
+  const PiecewiseBezier cubics = approximate_by_cubics(c, 1e-3);
+  EXPECT_GT(cubics.deviation, 1e-3);
+  EXPECT_EQ(approximate_by_cubics(c, 1e-6).pieces.size(), cubics.pieces.size());
 }
 
 }  // namespace
