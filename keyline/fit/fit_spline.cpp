@@ -85,8 +85,11 @@ struct Found {
   SplineFitReport report;
 };
 
-core::Result<Found> find_knots(const detail::CanonicalData& canonical, double rounding,
-                               const SplineFitOptions& options, const GeneticRates& rates) {
+/// `weight`: sum of the weights given. Those raised for must-pass points would raise the floor,
+/// too.
+core::Result<Found> find_knots(const detail::CanonicalData& canonical, double weight,
+                               double rounding, const SplineFitOptions& options,
+                               const GeneticRates& rates) {
   Found found;
   found.report.rounding = rounding;
   found.report.seed = options.seed;
@@ -95,8 +98,7 @@ core::Result<Found> find_knots(const detail::CanonicalData& canonical, double ro
   BayesCriterion criterion;
   criterion.count = static_cast<double>(canonical.data.parameters.size());
   criterion.order = options.order;
-  criterion.floor = finest * detail::sum_of_weights(canonical.data) *
-                    static_cast<double>(canonical.data.columns.size());
+  criterion.floor = finest * weight * static_cast<double>(canonical.data.columns.size());
   found.criterion = criterion;
   found.criterion.floor /= canonical.scale * canonical.scale;
   if (found.criterion.floor == 0 && criterion.floor > 0)
@@ -202,6 +204,10 @@ std::vector<double> one_turn(const std::vector<double>& knots) {
   return result;
 }
 
+double weight_of(const OrderedPoints& run) {
+  return detail::sum_of_weights({run.parameters, {}, run.weights});
+}
+
 /// The points counted from `origin`, coordinates in columns.
 SplineData planar_data(const OrderedPoints& run, Point2 origin) {
   SplineData data{run.parameters, {{}, {}}, run.weights};
@@ -301,8 +307,10 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   fit.parameters.resize(points.size());
   const OrderedPoints run = ordered(points, fit.parameters, *w);
   const OrderedPoints searched = options.closed ? overlapped(run) : run;
+  const OrderedPoints given = ordered(points, fit.parameters, {weights.begin(), weights.end()});
   const auto found =
       find_knots(detail::canonical_curve(searched.points, searched.parameters, searched.weights),
+                 weight_of(options.closed ? overlapped(given) : given),
                  curve_rounding(points, options.rounding), options, rates);
   if (!found) return std::unexpected(found.error());
   const SplineData data = planar_data(run, points.front());
@@ -324,7 +332,7 @@ core::Result<SplineFit> fit_spline(std::span<const Point2> points, std::span<con
   }
   fit.interior_knots = detail::interior_of(*spline);
   fit.curve = planar_curve(*spline, points.front());
-  const detail::Misfit m = detail::misfit(*spline, data);
+  const detail::Misfit m = detail::misfit(*spline, planar_data(given, points.front()));
   fit.sse = m.sse;
   fit.rms = m.rms;
   fit.deviation = m.largest;
@@ -353,9 +361,10 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
   const core::Interval range{data.parameters.front(), data.parameters.back()};
   if (auto ok = check_range(range, y, settings.interval); !ok) return std::unexpected(ok.error());
   const double rounding = options.rounding > 0 ? options.rounding : detail::decimal_rounding(y);
+  const SplineData given = function_data(x, y, {weights.begin(), weights.end()});
   const auto found =
       find_knots(detail::canonical_function(data.parameters, data.columns[0], data.weights),
-                 rounding, options, settings.rates);
+                 detail::sum_of_weights(given), rounding, options, settings.rates);
   if (!found) return std::unexpected(found.error());
   std::vector<double> knots;
   for (const double t : found->knots) knots.push_back(core::at(range, t));
@@ -373,7 +382,7 @@ core::Result<FunctionFit> fit_function(std::span<const double> x, std::span<cons
     return core::fail(ErrorCode::bad_input, "too few different x for a spline of this order",
                       "give more of them, or a smaller order");
   }
-  const detail::Misfit m = detail::misfit(*spline, data);
+  const detail::Misfit m = detail::misfit(*spline, given);
   FunctionFit fit{*spline, detail::interior_of(*spline), m.sse, 0, m.largest, m.rms, found->report};
   fit.spline.sum_of_squares = m.sse;
   fit.bic = found->criterion.value(fit.sse, fit.interior_knots.size());

@@ -85,10 +85,10 @@ struct SplineFit {
   curve::BSpline2 curve;               ///< domain [0, 1], clamped
   std::vector<double> parameters;      ///< t of each point
   std::vector<double> interior_knots;  ///< increasing, multiple ones repeated
-  double sse = 0;                      ///< Q of [Fairing] Eq. 4, both coordinates, weighted
-  double bic = 0;                      ///< of Q (floored) in the data's unit
+  double sse = 0;        ///< Q of [Fairing] Eq. 4, both coordinates, by the weights given
+  double bic = 0;        ///< of Q (floored) in the data's unit
   double deviation = 0;  ///< largest distance of a point from the curve at its parameter
-  double rms = 0;        ///< root of the weighted mean squared distance
+  double rms = 0;        ///< root of the mean squared distance, by the weights given
   SplineFitReport report;
 };
 

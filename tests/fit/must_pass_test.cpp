@@ -90,5 +90,37 @@ TEST(MustPass, WhatCannotBePassedIsNamed) {
   EXPECT_NE(fit.error().message.find("is missed by 1.5"), std::string::npos) << fit.error().message;
 }
 
+// What is told of a fit goes by the weights given, not by those that hold the points. Nor do these
+// raise the floor that the rounding of the data sets to the squares, which left no knot to find.
+TEST(MustPass, PointsCountAsOthersInWhatIsTold) {
+  std::vector<core::Point2> points;
+  std::vector<double> x, y;
+  for (int i = 0; i < 60; ++i) {
+    x.push_back(i / 6.0);
+    y.push_back(std::round(100 * std::sin(x.back()) + 3 * std::cos(37 * i)) / 100);
+    points.push_back({x.back(), y.back()});
+  }
+  std::vector<double> uneven(60, 1.0);
+  uneven[7] = 3;
+  for (const std::vector<double>& weights : {std::vector<double>(60, 1.0), uneven}) {
+    const auto curve = fit_spline(points, weights, passing({30}));
+    const auto function = fit_function(x, y, weights, passing({30}));
+    ASSERT_TRUE(curve && function);
+    double sum = 0, squares = 0, of_function = 0;
+    for (std::size_t i = 0; i < 60; ++i) {
+      const double d = distance(evaluate(curve->curve, curve->parameters[i]), points[i]);
+      sum += weights[i];
+      squares += weights[i] * d * d;
+      of_function += weights[i] * std::pow(evaluate(function->spline, x[i], 0) - y[i], 2);
+    }
+    EXPECT_NEAR(curve->sse, squares, 1e-9);
+    EXPECT_NEAR(curve->rms, std::sqrt(squares / sum), 1e-9);
+    EXPECT_NEAR(function->sse, of_function, 1e-9);
+    EXPECT_NEAR(function->rms, std::sqrt(of_function / sum), 1e-9);
+    EXPECT_LT(curve->rms, 0.03 / std::sqrt(2));  // of what the cosine adds
+    EXPECT_LT(function->rms, 0.03 / std::sqrt(2));
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fit
