@@ -150,6 +150,8 @@ document::SpaceCurve space_curve_of(const opencascade::handle<Geom_Curve>& whole
 
 void add_curve(document::Document& document, const opencascade::handle<Geom_Curve>& whole,
                double first, double last, const Label& label, double& deviation) {
+  if (Precision::IsInfinite(first) || Precision::IsInfinite(last))
+    throw Standard_ConstructionError("an unbounded curve");
   const Handle(Geom_Curve) c = basis_of(whole);
   if (add_line(document, c, first, last, label) || add_arc(document, c, first, last, label)) return;
   BSpline3 made = spline_of(c, first, last, deviation);
