@@ -35,6 +35,7 @@
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
+#include "keyline/exchange/occt/step_model.h"
 #include "keyline/exchange/occt/value_check.h"
 
 namespace keyline::exchange::occt {
@@ -239,6 +240,7 @@ document::Document read_step(const std::string& file) {
   const auto [occt_unit, unit] = unit_of(reader, document);
   document.unit = unit;
   Interface_Static::SetCVal("xstep.cascade.unit", occt_unit);
+  mend_step_model(reader.WS()->Model());
   const int roots = reader.NbRootsForTransfer();
   const int done = reader.TransferRoots();
   if (done < roots)
