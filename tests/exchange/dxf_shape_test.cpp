@@ -94,6 +94,21 @@ TEST(PolylineShape, BulgesAreArcsOfTheirCircle) {
     }
 }
 
+// Programs write bulges that are rounding alone for straight edges.
+TEST(PolylineShape, SlightBulgesLieAtTheirChord) {
+  const Point3 a{12.34, 5.67, 0}, b{112.9, 48.1, 0};
+  const Vector3 right{(b - a).y, -(b - a).x, 0};
+  for (const double size : {1e-6, 1e-9, 1e-11, 1e-14, 2.2e-16, 1e-17, 1e-300})
+    for (const double bulge : {size, -size}) {
+      const auto shape = polyline_shape({{a, bulge}, {b, 0}}, false);
+      const auto& pieces = std::get<std::vector<Bezier3>>(shape);
+      ASSERT_EQ(pieces.size(), 1U);
+      EXPECT_LT(distance(evaluate(pieces[0], 0.5), mix(a, b, 0.5) + (bulge / 2) * right), 3e-14);
+      // Tangents of a slight arc leave the chord by half its turn: 2 b.
+      EXPECT_LT(distance(pieces[0].control[1], mix(a, b, 0.5) + bulge * right), 3e-14);
+    }
+}
+
 TEST(PolylineShape, RepeatedPointsAreOneAndClosedOnesEndWhereTheyStart) {
   const Point3 a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0};
   const auto points = [](const DxfShape& shape) {

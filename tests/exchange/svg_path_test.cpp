@@ -113,6 +113,26 @@ TEST(SvgPath, ShortArcsAreOnePiece) {
   }
 }
 
+// An arc rises c^2 / (4 (r + sqrt(r^2 - c^2 / 4))) above its chord c; an ellipse twice as wide as
+// high does so where x is halved.
+TEST(SvgPath, SlightArcsLieAtTheirChord) {
+  const Point2 from{12.34, 5.67}, to{112.9, 48.1};
+  for (const double r : {1e3, 1e5, 1e9, 1e13, 1e15, 1e17, 1e300})
+    for (const double wide : {1.0, 2.0})
+      for (const bool sweep : {false, true}) {
+        const core::Vector2 chord{(to.x - from.x) / wide, to.y - from.y};
+        const double quarter = dot(chord, chord) / 4;
+        const double rise = quarter / (r + std::sqrt(1 - quarter / r / r) * r);
+        core::Vector2 up = core::Vector2{chord.y, -chord.x} / (sweep ? norm(chord) : -norm(chord));
+        up.x *= wide;
+        const auto arcs = detail::svg_arc(from, to, wide * r, r, 0, false, sweep);
+        ASSERT_EQ(arcs.size(), 1U);
+        EXPECT_LT(core::distance(evaluate(arcs[0], 0.5), core::mix(from, to, 0.5) + rise * up),
+                  6e-14)
+            << r;
+      }
+}
+
 TEST(SvgPath, ArcsWithSmallRadiiAreEnlarged) {
   const auto arcs = detail::svg_arc({0, 0}, {10, 0}, 1, 1, 45, false, true);
   ASSERT_EQ(arcs.size(), 2U);

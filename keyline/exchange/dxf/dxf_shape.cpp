@@ -109,6 +109,14 @@ void add_edge(std::vector<Bezier3>& pieces, const BulgeVertex& a, Point3 b) {
   }
   const Vector3 half = 0.5 * (b - a.point);
   const Vector3 left{-half.y, half.x, 0};
+  // One piece needs no centre: that of a slight arc is so far away that differences from it are
+  // rounding alone.
+  if (std::abs(turn) <= core::kPi / 2) {
+    const double square = a.bulge * a.bulge;
+    const Point3 handle = a.point + half - (2 * a.bulge / (1 - square)) * left;
+    pieces.push_back({{a.point, handle, b}, {1, (1 - square) / (1 + square), 1}});
+    return;
+  }
   // The centre lies cot(turn / 2) half chords to the left of the chord's middle.
   const double k = (1 - a.bulge * a.bulge) / (2 * a.bulge);
   EllipseArc arc;

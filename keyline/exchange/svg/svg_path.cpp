@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "keyline/core/angle.h"
 #include "keyline/core/leading_number.h"
@@ -100,6 +101,21 @@ Point2 on_ellipse(const Ellipse& e, double angle, double reach) {
   return e.center + core::rotate_ccw(v, e.rotation);
 }
 
+/// The shorter arc through both ends as one piece, where it is one of at most a quarter turn. It
+/// needs no centre: that of a slight arc is so far away that differences from it are rounding
+/// alone.
+std::optional<Bezier2> one_piece(Point2 from, Point2 to, double rx, double ry, double rotation,
+                                 bool sweep) {
+  const Vector2 half = core::rotate_ccw(0.5 * (from - to), -rotation);
+  const Vector2 unit{half.x / rx, half.y / ry};
+  const double sine = norm(unit);  // of half the turn
+  if (!(sine * sine <= 0.5)) return std::nullopt;
+  const double weight = std::sqrt(1 - sine * sine);
+  const double reach = (sweep ? -1 : 1) * sine / weight;
+  const Vector2 out = core::rotate_ccw({rx * reach * unit.y, -ry * reach * unit.x}, rotation);
+  return Bezier2{{from, core::mix(from, to, 0.5) + out, to}, {1, weight, 1}};
+}
+
 }  // namespace
 
 std::vector<Bezier2> svg_arc(Point2 from, Point2 to, double rx, double ry, double x_axis_degrees,
@@ -111,6 +127,8 @@ std::vector<Bezier2> svg_arc(Point2 from, Point2 to, double rx, double ry, doubl
   const double chord = core::distance(from, to);
   if (!(rx > 1e-12 * chord && ry > 1e-12 * chord)) return {line};
   const double rotation = core::wrap_angle(std::fmod(x_axis_degrees, 360.0) * core::kPi / 180);
+  if (!large)
+    if (auto piece = one_piece(from, to, rx, ry, rotation, sweep)) return {*std::move(piece)};
   const Ellipse e = ellipse_through(from, to, rx, ry, rotation, large, sweep);
   const double quarters = std::abs(e.turn) / (core::kPi / 2);
   if (!std::isfinite(quarters)) return {line};
