@@ -18,7 +18,8 @@ struct EdgeRequest {
     return core::fields(
         core::field<&Request::surfaces>("the two surfaces").count(2, 2).needed(),
         core::field<&Request::edges>(
-            "an edge of each; unless given, the two nearest to each other"),
+            "an edge of each; unless given, the two nearest to each other, of those that are not "
+            "collapsed into a point"),
         core::flattened<&Request::tolerance>(),
         core::field<&Request::places>("places along the edge").within(core::from_to(2, 100'000)));
   }
@@ -70,7 +71,9 @@ struct EdgeAnswer {
         core::field<&Answer::order>("of continuity; none where there is a gap"),
         core::field<&Answer::pass>("whether each order is reached"),
         core::field<&Answer::largest, &Found::gap>("largest").in("length"),
-        core::field<&Answer::largest, &Found::angle>("largest fold").in("radian"),
+        core::field<&Answer::largest, &Found::angle>(
+            "largest fold, of places where both sides have a normal")
+            .in("radian"),
         core::field<&Answer::largest, &Found::curvature_jump>("largest").in("1/length"),
         core::field<&Answer::largest, &Found::rate_jump>("largest").in("1/length^2"),
         core::field<&Answer::largest, &Found::relative_curvature_jump>("as compared"),
@@ -81,6 +84,9 @@ struct EdgeAnswer {
         core::field<&Answer::largest, &Found::turning>(
             "of the normal along the edge; the number of stripes grows with it")
             .in("radian"),
+        core::field<&Answer::largest, &Found::without_normal>(
+            "places where a side has no normal and only the gap is compared; where two follow each "
+            "other the order is G0 at most"),
         core::field<&Answer::largest, &Found::tolerance>("that was applied"),
         core::field<&Answer::along>("place by place"));
   }

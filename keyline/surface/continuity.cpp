@@ -174,26 +174,50 @@ double worst_gap(const Surface& first, Edge a, const EdgeProjection& onto, const
   return worst;
 }
 
+struct Candidate {
+  Edge edge;
+  double length;
+};
+
+/// Edges that can be a joint: not those collapsed into a point, unless all are.
+std::vector<Candidate> candidates(const Surface& s) {
+  std::vector<Candidate> all;
+  for (const Edge e : kEdges) all.push_back({e, edge_length(s, e)});
+  const double least = kCollapsed * extent(net_of(s));
+  auto drawn_out = all;
+  std::erase_if(drawn_out, [least](const Candidate& c) { return c.length <= least; });
+  return drawn_out.empty() ? all : drawn_out;
+}
+
 std::array<Edge, 2> nearest_edges(const Surface& first, const Surface& second) {
+  const auto of_first = candidates(first);
   std::array<Edge, 2> best{};
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge b : kEdges) {
-    const EdgeProjection onto(second, b);
-    for (const Edge a : kEdges) {
-      const double gap = worst_gap(first, a, onto, second, b) +
-                         1e-12 * std::abs(edge_length(first, a) - edge_length(second, b));
+  for (const Candidate& b : candidates(second)) {
+    const EdgeProjection onto(second, b.edge);
+    for (const Candidate& a : of_first) {
+      const double gap =
+          worst_gap(first, a.edge, onto, second, b.edge) + 1e-12 * std::abs(a.length - b.length);
       if (gap < least) {
         least = gap;
-        best = {a, b};
+        best = {a.edge, b.edge};
       }
     }
   }
   return best;
 }
 
+/// Whether there is a stretch along which nothing but the gap was compared.
+bool has_unmeasured_stretch(const EdgeContinuity& e) {
+  const auto undefined = [](const EdgeSample& a, const EdgeSample& b) {
+    return !a.defined && !b.defined;
+  };
+  return std::ranges::adjacent_find(e.samples, undefined) != e.samples.end();
+}
+
 int order_of(const EdgeContinuity& e) {
   if (!(e.gap <= *e.tolerance.gap)) return -1;
-  if (!(e.angle <= e.tolerance.angle)) return 0;
+  if (!(e.angle <= e.tolerance.angle) || has_unmeasured_stretch(e)) return 0;
   if (!(e.relative_curvature_jump <= e.tolerance.curvature)) return 1;
   return e.relative_rate_jump <= e.tolerance.curvature_rate ? 3 : 2;
 }
@@ -277,7 +301,10 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
     const auto out = side_of(here, a, true);
     const auto in = side_of(there, b, false);
     sample.defined = out && in;
-    if (sample.defined) compare(sample, *out, *in, size);
+    if (sample.defined)
+      compare(sample, *out, *in, size);
+    else
+      ++result.without_normal;
     take_largest(result, sample);
     result.samples.push_back(sample);
   }

@@ -45,6 +45,7 @@ struct EdgeTolerance {
 };
 
 inline constexpr double kUsualGap = 1e-5;
+inline constexpr double kCollapsed = 1e-9;  ///< of the extent: an edge that is but a point
 
 /// With the gap that holds where something of that size is compared.
 EdgeTolerance with_gap(EdgeTolerance tolerance, double size);
@@ -72,7 +73,9 @@ struct EdgeSample {
 
 /// Largest values along the edge and the order they amount to: -1 a gap, 0…3 for G0…G3. The
 /// `stripe_turn` is the mean over all stripes of all lights that cross the edge, radians; `turning`
-/// the angle by which the normal turns along it, in all: as that grows so does their number.
+/// the angle by which the normal turns along it, in all: as that grows so does their number. A
+/// single place without a normal (a pole at the edge's end) takes nothing from the order, as little
+/// as what lies between two places; where two follow each other it is G0 at most.
 struct EdgeContinuity {
   std::array<Edge, 2> edges{};
   std::vector<EdgeSample> samples;
@@ -80,14 +83,16 @@ struct EdgeContinuity {
   double relative_curvature_jump = 0, relative_rate_jump = 0;
   double stripe_turn = 0, turning = 0;
   double length = 0;        ///< of the first edge
+  int without_normal = 0;   ///< samples that are not `defined`
   EdgeTolerance tolerance;  ///< its gap is set
   int order = -1;
 };
 
 /// Compares `count` places of the first edge with the nearest ones of the second edge, in whichever
 /// sense that runs; a second edge that is longer is compared over the common part. Without edges
-/// the pair with the least gap is taken. A gap that is not set is kUsualGap of the larger extent.
-/// Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not finite.
+/// the pair with the least gap is taken, of those that are not collapsed. A gap that is not set is
+/// kUsualGap of the larger extent. Fails: bad_input for count < 2 or above 100,000, a tolerance
+/// that is negative or not finite.
 core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,
                                              const std::optional<std::array<Edge, 2>>& edges = {},
                                              const EdgeTolerance& tolerance = {}, int count = 101);

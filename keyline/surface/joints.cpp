@@ -11,9 +11,8 @@ namespace {
 using core::Point3;
 
 constexpr int kPlaces = 33;
-constexpr int kCoarse = 8;           ///< steps along an edge, to find its neighbour
-constexpr double kCollapsed = 1e-9;  ///< of the patch: an edge that is but a point
-constexpr double kRounding = 1e-9;   ///< of the edge: gaps that are alike
+constexpr int kCoarse = 8;          ///< steps along an edge, to find its neighbour
+constexpr double kRounding = 1e-9;  ///< of the edge: gaps that are alike
 constexpr std::array<Edge, 4> kEdges{Edge::u0, Edge::u1, Edge::v0, Edge::v1};
 
 struct EdgeShape {

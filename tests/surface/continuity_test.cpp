@@ -132,6 +132,44 @@ TEST(EdgeContinuity, CollapsedEdgesAreComparedByPosition) {
   const EdgeContinuity c = joint(s, s, std::array{Edge::v1, Edge::v1});
   EXPECT_EQ(c.gap, 0);
   EXPECT_FALSE(c.samples[50].defined);
+  EXPECT_EQ(c.without_normal, 101);
+  EXPECT_EQ(c.order, 0);  // where no normal is, no fold can be denied
+}
+
+/// An eighth of a sphere turned by `turn` about the z axis and sheared by y += shear x.
+BezierSurface turned_octant(double turn, double shear) {
+  BezierSurface s = sphere_octant(1);
+  for (auto& p : s.net.points) {
+    const double x = p.x * std::cos(turn) - p.y * std::sin(turn);
+    const double y = p.x * std::sin(turn) + p.y * std::cos(turn);
+    p = {x, y + shear * x, p.z};
+  }
+  return s;
+}
+
+// The shear keeps the meridian x = 0 and tilts the tangent plane at (0, 1, 0) from y = 1 to
+// y = 1 + x / 2. Both poles lie together without a gap, but a point is no joint.
+TEST(EdgeContinuity, PolesAreNoJoint) {
+  const EdgeContinuity folded = joint(sphere_octant(1), turned_octant(core::kPi / 2, 0.5));
+  EXPECT_EQ(folded.edges, (std::array{Edge::u1, Edge::u0}));
+  EXPECT_EQ(folded.order, 0);
+  EXPECT_NEAR(folded.angle, std::atan(0.5), 1e-9);
+  // A pole at the end of a good joint takes nothing from it.
+  const EdgeContinuity smooth = joint(sphere_octant(1), turned_octant(core::kPi / 2, 0));
+  EXPECT_EQ(smooth.order, 3);
+  EXPECT_EQ(smooth.without_normal, 1);
+}
+
+// A first row that is there twice leaves the surface but not its derivative across the edge.
+TEST(EdgeContinuity, ARowThatIsThereTwiceHidesNoFold) {
+  const BezierSurface flat{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}}, {}};
+  const BezierSurface tilted{
+      {3, 2, {{1, 0, 0}, {1, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 1}, {2, 1, 1}}}, {}};
+  const EdgeContinuity c = joint(flat, tilted);
+  EXPECT_EQ(c.edges, (std::array{Edge::u1, Edge::u0}));
+  EXPECT_EQ(c.gap, 0);
+  EXPECT_EQ(c.order, 0);
+  EXPECT_EQ(c.without_normal, 101);
 }
 
 }  // namespace
