@@ -19,6 +19,17 @@ Share locate(const Polyline<P>& c, double t) {
   return share_of(c.points.size() - 1, t);
 }
 
+/// The next edge that has length after one that has none; at the end the last one; else zero.
+template <class P>
+core::Displacement<P> way_on(const Polyline<P>& c, std::size_t edge) {
+  const P& here = c.points[edge];
+  for (std::size_t i = edge + 1; i < c.points.size(); ++i)
+    if (c.points[i] != here) return c.points[i] - here;
+  for (std::size_t i = edge; i-- > 0;)
+    if (c.points[i] != here) return here - c.points[i];
+  return {};
+}
+
 }  // namespace
 
 template <class P>
@@ -47,7 +58,9 @@ Jet<P> jet(const Polyline<P>& c, double t) {
   const Share at = locate(c, t);
   const P& a = c.points[at.index];
   const P& b = c.points[at.index + 1];
-  return {mix(a, b, at.t), static_cast<double>(c.points.size() - 1) * (b - a), {}, {}};
+  const auto edges = static_cast<double>(c.points.size() - 1);
+  // The third derivative alone is read as a direction both by what leaves and by what arrives.
+  return {mix(a, b, at.t), edges * (b - a), {}, edges * (a == b ? way_on(c, at.index) : b - b)};
 }
 
 template <class P>

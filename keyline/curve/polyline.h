@@ -26,7 +26,7 @@ using Polyline3 = Polyline<core::Point3>;
 /// finite. Repeated points are allowed.
 template <class P>
 core::Result<void> validate(const Polyline<P>& c);
-
+/// The jet on an edge of no length is 0 but for its third derivative, which is the way on.
 template <class P>
 P evaluate(const Polyline<P>& c, double t);
 template <class P>

@@ -3,14 +3,71 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyline/curve/arriving.h"
+#include "keyline/curve/stops.h"
+
 namespace keyline::document {
+namespace {
+
+using core::Vector2;
+
+/// Whether a jet has no direction.
+bool rests(const curve::Jet2& j) {
+  return j.first == Vector2{} && j.second == Vector2{} && j.third == Vector2{};
+}
+
+/// Direction of travel at a place where the jet has none: of a stop, else of the next part that
+/// has length, at the end of the last.
+template <class Curve>
+Vector2 way_at_rest(const Curve& c, double t) {
+  for (const curve::Stop& stop : curve::stops_of(c))
+    if (stop.t == t && (t < 1 ? stop.after : stop.before))
+      return (t < 1 ? stop.after : stop.before)->tangent;
+  const std::vector<double> breaks = breakpoints(c);
+  for (const double b : breaks)
+    if (b > t && b < 1)
+      if (const auto j = jet(c, b); !rests(j)) return curve::unit_tangent(j);
+  for (auto b = breaks.rbegin(); b != breaks.rend(); ++b)
+    if (*b <= t && *b > 0)
+      if (const auto j = jet(c, std::nextafter(*b, 0.0)); !rests(j))
+        return curve::arriving_tangent(j);
+  return {};
+}
+
+/// The jet, where it has no direction with one as its third derivative (see curve::Polyline).
+template <class Curve>
+curve::Jet2 with_way(const Curve& c, double t, curve::Jet2 j) {
+  if constexpr (std::is_same_v<Curve, curve::Bezier2> || std::is_same_v<Curve, curve::BSpline2>)
+    if (rests(j)) j.third = way_at_rest(c, t);
+  return j;
+}
+
+/// Of a member without length: the direction of the next that has one, at the end of the last.
+template <class Member>
+curve::Jet2 with_way_of_others(const std::vector<Member>& members, std::size_t index,
+                               curve::Jet2 j) {
+  if (!rests(j)) return j;
+  for (std::size_t i = index + 1; i < members.size(); ++i)
+    if (const auto next = jet(members[i], 0); !rests(next)) {
+      j.third = curve::unit_tangent(next);
+      return j;
+    }
+  for (std::size_t i = index; i-- > 0;)
+    if (const auto last = jet(members[i], 1); !rests(last)) {
+      j.third = curve::arriving_tangent(last);
+      return j;
+    }
+  return j;
+}
+
+}  // namespace
 
 core::Point2 evaluate(const PlanarCurve& c, double t) {
   return std::visit([t](const auto& v) { return evaluate(v, t); }, c.value);
 }
 
 curve::Jet2 jet(const PlanarCurve& c, double t) {
-  return std::visit([t](const auto& v) { return jet(v, t); }, c.value);
+  return std::visit([t](const auto& v) { return with_way(v, t, jet(v, t)); }, c.value);
 }
 
 std::vector<double> breakpoints(const PlanarCurve& c) {
@@ -36,7 +93,8 @@ core::Point2 evaluate(const Path& path, double t) {
 
 curve::Jet2 jet(const Path& path, double t) {
   const curve::Share share = curve::share_of(path.curves.size(), t);
-  const auto own = jet(path.curves[share.index], share.t);
+  const auto own =
+      with_way_of_others(path.curves, share.index, jet(path.curves[share.index], share.t));
   return curve::rescaled(own, static_cast<double>(path.curves.size()));
 }
 
@@ -78,7 +136,8 @@ core::Point2 evaluate(const PlacedPath& placed, double t) {
 
 curve::Jet2 jet(const PlacedPath& placed, double t) {
   const curve::Share share = placed.locate(t);
-  const auto own = jet(placed.members()[share.index], share.t);
+  const auto& members = placed.members();
+  const auto own = with_way_of_others(members, share.index, jet(members[share.index], share.t));
   return curve::rescaled(own, static_cast<double>(placed.path().curves.size()));
 }
 

@@ -9,6 +9,7 @@
 #include "keyline/curve/conversion.h"
 #include "keyline/curve/view.h"
 #include "keyline/document/cusped.h"
+#include "keyline/document/smooth_members.h"
 
 namespace keyline::document {
 namespace {
@@ -19,8 +20,7 @@ using core::Point2;
 using core::Result;
 using core::Vector2;
 
-constexpr double kCorner = 1e-7;  // radians: a turn of the tangent at a joint above this
-constexpr int kChecks = 64;       // places of every smooth stretch where curvature is looked at
+constexpr int kChecks = 64;  // places of every smooth stretch where curvature is looked at
 
 template <class Curve>
 Curve part_of(const Curve& c, const core::Interval& t) {
@@ -183,7 +183,8 @@ Result<void> turn_corner(const PlanarCurve& before, const PlanarCurve& after, do
                          double slack, Offset& to) {
   const double in = curve::arriving_angle(jet(before, 1));
   const double out = curve::tangent_angle(jet(after, 0));
-  const double turn = core::wrap_angle(out - in);
+  double turn = core::wrap_angle(out - in);
+  if (core::kPi - std::abs(turn) < kCorner) turn = -std::copysign(turn, distance);  // opens on both
   if (std::abs(turn) < kCorner || std::abs(turn * distance) <= slack) return {};
   const Point2 corner = evaluate(after, 0);
   if (turn * distance > 0)
@@ -197,21 +198,6 @@ Result<void> turn_corner(const PlanarCurve& before, const PlanarCurve& after, do
   to.path.curves.push_back({lac::Chain{{start, in}, {arc}, false}});
   ++to.arcs;
   return {};
-}
-
-std::vector<PlanarCurve> smooth_members(const Path& path) {
-  std::vector<PlanarCurve> all;
-  for (const PlanarCurve& c : path.curves) {
-    const auto* line = std::get_if<curve::Polyline2>(&c.value);
-    if (!line) {
-      all.push_back(c);
-      continue;
-    }
-    for (std::size_t i = 0; i + 1 < line->points.size(); ++i)
-      if (line->points[i] != line->points[i + 1])
-        all.push_back({curve::Bezier2{{line->points[i], line->points[i + 1]}, {}}});
-  }
-  return all;
 }
 
 }  // namespace
@@ -281,6 +267,8 @@ Path mirrored(const Path& path, const core::Pose2& axis) {
 Result<Offset> offset(const Path& path, double distance, double tolerance, double one_end) {
   if (distance == 0) return Offset{path, 0, 0};
   const std::vector<PlanarCurve> members = smooth_members(path);
+  if (members.empty())
+    return fail(ErrorCode::undrawable, "a curve without length has no side", "", "curve");
   Offset made;
   made.path.closed = path.closed || core::distance(evaluate(path, 0), evaluate(path, 1)) <= one_end;
   for (std::size_t i = 0; i < members.size(); ++i) {

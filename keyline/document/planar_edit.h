@@ -31,9 +31,10 @@ struct Offset {
 /// The path at a constant distance to its left (right where negative): of a log-aesthetic piece of
 /// constant curvature exactly, of all else cubics within the tolerance (> 0), an arc about every
 /// corner that opens. Closed where the path is or its ends lie within `one_end`; where it closes, a
-/// turn that parts the offset by no more than that is no corner.
-/// Fails: undrawable where the distance reaches a radius of curvature (the offset would turn back),
-/// with that radius, and at a corner that closes.
+/// turn that parts the offset by no more than that is no corner. Members without length are left
+/// out.
+/// Fails: undrawable where all are, where the distance reaches a radius of curvature (the offset
+/// would turn back), with that radius, and at a corner that closes.
 core::Result<Offset> offset(const Path& path, double distance, double tolerance, double one_end);
 
 }  // namespace keyline::document

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
+#include "keyline/curve/arriving.h"
+
 #include "test_curves.h"
 
 namespace keyline::curve {
@@ -27,6 +30,24 @@ TEST(Polyline, VertexBelongsToTheEdgeItStarts) {
     }
     EXPECT_EQ(evaluate(c, 1), c.points.back());
   }
+}
+
+// A vertex twice in one place turns by nothing: its edge has the direction of the next one, at the
+// end that of the last.
+TEST(Polyline, AnEdgeOfNoLengthHasTheDirectionOfTheNext) {
+  const double up = core::kPi / 2;
+  const Polyline2 line{{{0, 0}, {0, 0}, {0, 1}, {0, 1}, {2, 1}, {2, 1}, {2, 1}}};
+  const double wanted[] = {up, up, 0, 0, 0, 0};
+  for (int edge = 0; edge < 6; ++edge)
+    for (const double of_it : {0.0, 0.4}) {
+      const Jet2 j = jet(line, (edge + of_it) / 6);
+      EXPECT_NEAR(tangent_angle(j), wanted[edge], 1e-15) << edge;
+      EXPECT_NEAR(arriving_angle(j), wanted[edge], 1e-15) << edge;
+      EXPECT_EQ(norm(j.first) > 0, edge == 1 || edge == 3) << edge;  // no length is added
+      EXPECT_EQ(curvature(j), 0);
+    }
+  EXPECT_NEAR(arriving_angle(jet(line, 1)), 0, 1e-15);
+  EXPECT_EQ(jet(Polyline2{{{1, 1}, {1, 1}}}, 0.5), (Jet2{{1, 1}, {}, {}, {}}));
 }
 
 TEST(Polyline, SplitMeetsAtThePoint) {

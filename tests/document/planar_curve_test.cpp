@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
+#include "keyline/curve/arriving.h"
+
 namespace keyline::document {
 namespace {
 
@@ -22,6 +25,32 @@ TEST(Path, MembersShareTheParameterEvenly) {
 TEST(Path, JetIsInThePathsParameter) {
   const curve::Jet2 at = jet(two_lines(), 0.75);
   EXPECT_EQ(at.first, (core::Vector2{0, 4}));
+}
+
+// Where a place has no direction by its derivatives, it has that of the curve beside it.
+TEST(Path, HasADirectionWhereItRests) {
+  const double up = core::kPi / 2;
+  const auto leaves = [](const auto& c, double t) { return curve::tangent_angle(jet(c, t)); };
+  const auto arrives = [](const auto& c, double t) { return curve::arriving_angle(jet(c, t)); };
+  const core::Point2 o{0, 0};
+  const PlanarCurve handles{curve::Bezier2{{o, o, o, o, {0, 1}, {1, 2}}, {}}};
+  EXPECT_NEAR(leaves(handles, 0), up, 1e-15);
+  EXPECT_NEAR(arrives(reverse(handles), 1), -up, 1e-15);
+  const PlanarCurve spline{
+      curve::BSpline2{1, {0, 0, 1, 2, 3, 4, 4}, {o, o, {0, 1}, {0, 1}, {-1, 1}}, {}}};
+  for (const auto& [t, angle] :
+       {std::pair{0.0, up}, {0.1, up}, {0.25, up}, {0.5, core::kPi}, {0.6, core::kPi}})
+    EXPECT_NEAR(leaves(spline, t), angle, 1e-15) << t;
+  EXPECT_NEAR(arrives(PlanarCurve{curve::BSpline2{1, {0, 0, 1, 2, 2}, {o, {0, 1}, {0, 1}}, {}}}, 1),
+              up, 1e-15);
+  const PlanarCurve point{curve::Bezier2{{{0, 1}, {0, 1}, {0, 1}}, {}}};
+  const Path path{{point, {curve::Bezier2{{{0, 1}, {0, 2}}, {}}}, point}, false};
+  const PlacedPath placed(path);
+  for (const double t : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+    EXPECT_NEAR(leaves(path, t), up, 1e-15) << t;
+    EXPECT_NEAR(arrives(placed, t), up, 1e-15) << t;
+    EXPECT_EQ(norm(jet(placed, t).first) > 0, t == 0.5);
+  }
 }
 
 TEST(Path, ReverseRunsTheSameWayBack) {

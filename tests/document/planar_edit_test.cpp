@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/curve/length.h"
+
 namespace keyline::document {
 namespace {
 
@@ -118,6 +120,81 @@ TEST(Offset, TakesRoundingAtTheStartForNoCorner) {
   EXPECT_EQ(made->arcs, 0);
   ASSERT_EQ(made->path.curves.size(), 1U);
   EXPECT_TRUE(std::get<lac::Chain>(made->path.curves[0].value).closed);
+}
+
+double length_of(const Path& path) {
+  double all = 0;
+  for (const PlanarCurve& c : path.curves) {
+    const auto* chain = std::get_if<lac::Chain>(&c.value);
+    all += chain ? lac::arc_length(*chain) : curve::arc_length(PlacedCurve(c));
+  }
+  return all;
+}
+
+/// The largest gap between two of its members.
+double gap_of(const Path& path) {
+  double most = 0;
+  for (std::size_t i = 0; i + 1 < path.curves.size(); ++i)
+    most = std::max(most, distance(evaluate(path.curves[i], 1), evaluate(path.curves[i + 1], 0)));
+  return most;
+}
+
+// Two straight edges of one spline: turned about on the outside, refused on the inside.
+TEST(Offset, TurnsTheCornersOfASpline) {
+  const core::Point2 a{0, 0}, b{1, 1}, c{2, 4};
+  const curve::BSpline2 splines[] = {
+      {1, {0, 0, 1, 2, 2}, {a, b, c}, {}},
+      {1, {0, 0, 1, 2, 3, 3}, {a, b, b, c}, {}},
+      {2, {0, 0, 0, 1, 1, 2, 2, 2}, {a, core::mix(a, b, 0.5), b, core::mix(b, c, 0.5), c}, {}},
+      {3, {0, 0, 0, 0, 1, 2, 3, 4, 4, 4, 4}, {a, core::mix(a, b, 0.5), b, b, b, c, c}, {}}};
+  const double turn = std::atan2(3, 1) - std::numbers::pi / 4;
+  const double edges = distance(a, b) + distance(b, c);
+  for (const curve::BSpline2& spline : splines) {
+    ASSERT_TRUE(validate(spline));
+    const auto outside = offset_of({{{spline}}, false}, -0.05);
+    ASSERT_TRUE(outside) << outside.error().message;
+    EXPECT_EQ(outside->arcs, 1);
+    EXPECT_LT(gap_of(outside->path), 1e-12);
+    EXPECT_NEAR(length_of(outside->path), edges + 0.05 * turn, 1e-6);
+    EXPECT_FALSE(offset_of({{{spline}}, false}, 0.05));
+  }
+}
+
+// A cubic with a cusp at its middle, where it turns back: half a circle about that on the side on
+// which curvature is 0 at most.
+TEST(Offset, TurnsAboutACusp) {
+  const curve::Bezier2 cusp{{{0, 0}, {1, 1}, {0, 1}, {1, 0}}, {}};
+  const auto made = offset_of({{{cusp}}, false}, -0.02);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->arcs, 1);
+  EXPECT_LE(made->deviation, 1e-6);
+  EXPECT_LT(gap_of(made->path), 1e-9);
+  EXPECT_FALSE(offset_of({{{cusp}}, false}, 0.02));
+}
+
+// There and back: half a circle about the far end on either side.
+TEST(Offset, OpensWhereTheCurveTurnsBack) {
+  for (const double distance : {0.1, -0.1}) {
+    const auto made =
+        offset({{{curve::Polyline2{{{0, 0}, {1, 0}, {0, 0.0}}}}}, false}, distance, 1e-6, 0);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->arcs, 2);  // it closes
+    EXPECT_NEAR(length_of(made->path), 2 + 0.2 * std::numbers::pi, 1e-9);
+  }
+}
+
+TEST(Offset, LeavesMembersWithoutLengthOut) {
+  const auto line = [](core::Point2 from, core::Point2 to) {
+    return PlanarCurve{curve::Bezier2{{from, to}, {}}};
+  };
+  const Path up{{line({0, 0}, {0, 1}), line({0, 1}, {0, 1}), line({0, 1}, {0, 2})}, false};
+  for (const double distance : {0.1, -0.1}) {
+    const auto made = offset_of(up, distance);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->arcs, 0);
+    EXPECT_NEAR(length_of(made->path), 2, 1e-9);
+  }
+  EXPECT_FALSE(offset_of({{line({0, 1}, {0, 1})}, false}, 0.1));
 }
 
 TEST(PartOverSeam, KeepsTheMembersOfAPath) {
