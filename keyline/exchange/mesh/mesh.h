@@ -24,7 +24,7 @@ struct Mesh {
   std::vector<std::string> skipped;
 };
 
-/// Wavefront OBJ: v, f (polygons as fans, indices from the front or the back), l; line
+/// Wavefront OBJ: v, f (polygons as triangles, indices from the front or the back), l; line
 /// continuations, UTF-8 or UTF-16. Other statements of the format are let pass; faces that name no
 /// vertex, numbers without a statement's name and names that the format has not are skipped and
 /// reported.

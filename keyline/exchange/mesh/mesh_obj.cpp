@@ -5,6 +5,7 @@
 #include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/mesh/mesh_notes.h"
+#include "keyline/exchange/mesh/mesh_polygon.h"
 #include "keyline/exchange/text/byte_lines.h"
 #include "keyline/exchange/text/utf16.h"
 
@@ -99,8 +100,7 @@ class ObjReader {
       mesh_.lines.push_back(indices_);
       return;
     }
-    for (std::size_t i = 2; i < indices_.size(); ++i)
-      mesh_.triangles.push_back({indices_[0], indices_[i - 1], indices_[i]});
+    if (!detail::add_polygon(mesh_, indices_)) note("a face of too many corners; divide it");
   }
 
   void note(std::string_view what) { detail::note(mesh_, lines_.place(), what); }

@@ -4,6 +4,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/mesh/mesh.h"
+#include "keyline/exchange/mesh/mesh_polygon.h"
 #include "keyline/exchange/mesh/ply_header.h"
 
 namespace keyline::exchange {
@@ -34,6 +35,9 @@ class PlyReader {
     if (bad_faces_ > 0)
       mesh_.skipped.push_back(core::counted(bad_faces_, "face that names", "faces that name") +
                               " no vertices");
+    if (large_faces_ > 0)
+      mesh_.skipped.push_back(core::counted(large_faces_, "face") +
+                              " of too many corners; divide them");
     return std::move(mesh_);
   }
 
@@ -83,8 +87,7 @@ class PlyReader {
       ++bad_faces_;
       return {};
     }
-    for (std::size_t i = 2; i < corners_.size(); ++i)
-      mesh_.triangles.push_back({corners_[0], corners_[i - 1], corners_[i]});
+    large_faces_ += !detail::add_polygon(mesh_, corners_);
     return {};
   }
 
@@ -102,6 +105,7 @@ class PlyReader {
   std::vector<std::uint32_t> corners_;
   std::size_t bad_points_ = 0;
   std::size_t bad_faces_ = 0;
+  std::size_t large_faces_ = 0;
 };
 
 }  // namespace
