@@ -25,6 +25,17 @@ inline std::string in_columns(const std::string& value, std::size_t width) {
   return std::string(width - std::min(width, value.size()), ' ') + value;
 }
 
+/// Lines of up to 64 columns; no number goes from one to the next (2.2.3).
+inline std::vector<std::string> parted(std::string text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t comma = text.size() > 64 ? text.rfind(',', 63) : std::string::npos;
+    lines.push_back(text.substr(0, comma == std::string::npos ? 64 : comma + 1));
+    text.erase(0, lines.back().size());
+  }
+  return lines;
+}
+
 /// A line of 72 columns and its section's letter and number.
 inline std::string line(std::string text, char section, std::size_t number) {
   text.resize(72, ' ');
@@ -43,9 +54,8 @@ inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit =
   std::size_t first = 1;  // parameter line
   for (std::size_t i = 0; i < entities.size(); ++i) {
     const IgesEntity& e = entities[i];
-    std::string own = e.parameters + ';';
-    const std::size_t lines = (own.size() + 63) / 64;
-    const std::string type = own.substr(0, own.find_first_of(",;"));
+    const std::vector<std::string> lines = iges_text::parted(e.parameters + ';');
+    const std::string type = e.parameters.substr(0, e.parameters.find(','));
     const auto row = [&](const std::vector<std::string>& fields, std::size_t number) {
       std::string text;
       for (const std::string& field : fields) text += in_columns(field, 8);
@@ -53,9 +63,9 @@ inline std::string iges_file(const std::vector<IgesEntity>& entities, int unit =
     };
     const auto of = [](auto value) { return std::to_string(value); };
     row({type, of(first), "0", "0", of(e.level), "0", of(e.matrix), "0", e.status}, 2 * i + 1);
-    row({type, "0", of(e.color), of(lines), of(e.form), "", "", e.label, e.subscript}, 2 * i + 2);
-    for (std::size_t k = 0; k < lines; ++k) {
-      std::string text = own.substr(64 * k, 64);
+    row({type, "0", of(e.color), of(lines.size()), of(e.form), "", "", e.label, e.subscript},
+        2 * i + 2);
+    for (std::string text : lines) {
       text.resize(64, ' ');
       parameters += iges_text::line(text + in_columns(of(2 * i + 1), 8), 'P', first++);
     }

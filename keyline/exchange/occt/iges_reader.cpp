@@ -18,6 +18,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/dxf/dxf_color.h"
+#include "keyline/exchange/occt/iges_model.h"
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
@@ -149,6 +150,7 @@ document::Document read_iges(const std::string& file) {
   global.SetCascadeUnit(document::millimetres(document.unit));
   reader.IGESModel()->SetGlobalSection(global);
   Interface_Static::SetIVal("read.iges.bspline.continuity", 0);  // splines stay whole
+  mend_iges_model(reader.IGESModel());
   const int roots = reader.NbRootsForTransfer();
   const int done = reader.TransferRoots();
   if (done < roots) note_unread(reader, document);
