@@ -67,6 +67,29 @@ TEST(SpaceRows, ACloudTellsColumnsThatItDoesNotTake) {
               ElementsAre("line 1: 2 numbers before the points"));
 }
 
+// What would be the first point is none of the file's titles.
+TEST(SpaceRows, AFirstRowWithAMistakeIsRefused) {
+  const std::string why = "text where a number belongs: '0 0 O.5'";
+  EXPECT_EQ(cloud("0 0 O.5\n1 0 2\n2 0 3\n").failure, ":1 " + why);
+  EXPECT_EQ(cloud("x y z\n0 0 O.5\n1 0 2\n").failure, ":2 three numbers (x y z) are needed here");
+  std::istringstream in("0 0 O.5\n1 0 2\n2 0 3\n\n0 1 2\n1 1 3\n");
+  const auto read = read_lattice(in, "file");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().path + " " + read.error().message, "file:1 " + why);
+}
+
+TEST(SpaceRows, TitlesAreTold) {
+  EXPECT_THAT(cloud("Hull 7\nscan of May\n1 2 3\n4 5 6\n").beside.left_out,
+              ElementsAre("line 1: Hull 7", "line 2: scan of May"));
+  EXPECT_THAT(cloud("10 x 20\n1 2 3\n4 5 6\n").beside.left_out, ElementsAre("line 1: 10 x 20"));
+  std::istringstream in("the bow\n0 0 1\n1 0 2\n\n0 1 2\n1 1 3\n");
+  EXPECT_THAT(read_lattice(in, "file")->left_out, ElementsAre("line 1: the bow"));
+}
+
+TEST(SpaceRows, ATableOfThePlaneIsNoCloud) {
+  EXPECT_EQ(cloud("0 0\n1 1\n2 4\n3 9\n").failure, ":3 three numbers (x y z) are needed here");
+}
+
 TEST(SpaceRows, ACloudsRowsHaveTheColumnsOfTheFirst) {
   EXPECT_EQ(cloud("x y z i\n0 1 2 7\n1 3.5 9\n").failure, ":3 3 columns where the first row has 4");
   EXPECT_EQ(cloud("x\ty\tz\ti\n0\t1\t2\t7\n1\t3.5\t9\t\n").points.size(), 2U);
@@ -119,7 +142,7 @@ TEST(SpaceRows, ALatticesHeaderNamesItsColumnsAndUnit) {
   const auto height = read("x,y,height\n");
   ASSERT_FALSE(height);
   EXPECT_EQ(height.error().path, "file:2");
-  EXPECT_EQ(read("x,y,z\n0,0\n").error().message, "3 columns where the first row has 2");
+  EXPECT_EQ(read("x,y,z\n0,0\n").error().message, "row 1 has 2 points, the first row 3");
 }
 
 }  // namespace

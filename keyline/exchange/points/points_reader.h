@@ -52,7 +52,8 @@ struct PointsFile {
 /// - Blank lines part rows into curves, as part_blocks says; not where an id column names them.
 /// - Numbers behind the columns of the first row are `left_out`, and a failure where commas
 ///   separate: a decimal comma makes two of one number. A row that ends before columns in which the
-///   first has numbers is a failure: which of its own are missing nobody knows.
+///   first has numbers is a failure: which of its own are missing nobody knows. So is one of more
+///   than the first, where the header has not as many.
 /// - Missing entries (empty, nan, inf, null, NA, #N/A) give non-finite coordinates, left to
 ///   acquire_key_line to count and drop.
 ///

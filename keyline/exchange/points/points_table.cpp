@@ -166,7 +166,8 @@ core::Result<void> PointsTable::meet_count() {
 
 core::Result<void> PointsTable::check_width(const Fields& fields, int number,
                                             const std::string& place) {
-  if (columns_.own_x()) return {};  // the shorter side ends early
+  if (columns_.own_x() && fields.size() <= row_width_.most())
+    return {};  // the shorter side ends early
   const auto behind = row_width_.check(fields, row_, head_.style, place);
   if (!behind) return std::unexpected(behind.error());
   if (*behind)

@@ -46,7 +46,7 @@ core::Result<bool> RowWidth::check(const Fields& fields, std::string_view line,
     if (style.separator != ',') return true;
     return other_columns(fields.size(), most_, kComma, place);
   }
-  if (fields.size() > width && has_number(fields, width, style))
+  if (fields.size() > width && fields.size() != most_ && has_number(fields, width, style))
     return other_columns(fields.size(), width, kAll, place);
   if (fields.size() >= width) return false;
   const std::size_t cells = count_cells(line, style);

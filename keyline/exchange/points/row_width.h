@@ -22,6 +22,7 @@ class RowWidth {
   /// Numbers behind the columns are let pass, except where commas separate: there they are rather
   /// what a decimal comma makes of one number, and the row would be read wrongly. So it would where
   /// a row has fewer columns, if the first has numbers there: which one is missing nobody knows.
+  /// A first row may end before the columns that the header names, and others have them all.
   /// Returns: whether there are such numbers behind them. Fails: bad_input where the row has other
   /// columns than the first.
   core::Result<bool> check(const Fields& fields, std::string_view line, const TableStyle& style,

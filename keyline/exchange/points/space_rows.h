@@ -23,8 +23,9 @@ class SpaceRows {
   explicit SpaceRows(const PointsOptions& options) : options_(options) {}
 
   /// Takes a line before the points, unless it is the first of them.
-  /// Returns: whether it is. Fails: bad_input where x, y and z are not all named, as is_first_row()
-  /// and columns_below().
+  /// Returns: whether it is. Fails: bad_input where x, y and z are not all named, where the line
+  /// of text before it is rather a row with a mistake in it, where three lines have too few
+  /// numbers, and as is_first_row() and columns_below().
   core::Result<bool> is_first(std::string_view line, int number, const std::string& place);
 
   bool started() const { return started_; }
@@ -44,11 +45,17 @@ class SpaceRows {
   std::vector<std::string> left_out() const;
 
  private:
+  struct Title {  // the last line of text before the points
+    std::string text;
+    std::string place;
+  };
+
   core::Result<void> start(const Fields& first_row, std::string_view line,
                            const std::string& place);
 
   PointsOptions options_;
   PointsHead head_;
+  Title title_;
   PointsColumns columns_;
   std::size_t width_ = 0;  ///< fields of the first row
   RowWidth row_width_;
