@@ -21,7 +21,9 @@ struct EdgeRequest {
             "an edge of each; unless given, the two nearest to each other, of those that are not "
             "collapsed into a point"),
         core::flattened<&Request::tolerance>(),
-        core::field<&Request::places>("places along the edge").within(core::from_to(2, 100'000)));
+        core::field<&Request::places>(
+            "places along the edge; where one edge lies along part of the other, along that part")
+            .within(core::from_to(2, 100'000)));
   }
 };
 

@@ -28,29 +28,37 @@ constexpr int kCoarse = 64;
 
 bool is_u_edge(Edge e) { return e == Edge::u0 || e == Edge::u1; }
 
-SurfaceJet jet_at(const Surface& s, Edge e, double along) {
-  const auto [u, v] = edge_parameters(e, along);
-  return jet(s, u, v);
-}
-
 struct EdgeJet {
   Point3 point;
   Vector3 first, second;  ///< by `along`
 };
 
-EdgeJet edge_jet(const Surface& s, Edge e, double along) {
-  const SurfaceJet j = jet_at(s, e, along);
-  return is_u_edge(e) ? EdgeJet{j.point, j.v, j.vv} : EdgeJet{j.point, j.u, j.uu};
-}
-
-/// Nearest place of an edge, from samples and Newton's method on the squared distance.
-class EdgeProjection {
+/// An edge with samples of it.
+class Border {
  public:
-  EdgeProjection(const Surface& s, Edge e) : surface_(s), edge_(e) {
-    for (int i = 0; i <= kCoarse; ++i)
-      points_.push_back(edge_jet(s, e, static_cast<double>(i) / kCoarse).point);
+  Border(const Surface& s, Edge e) : surface_(&s), edge_(e) {
+    for (int i = 0; i <= kCoarse; ++i) points_.push_back(point(static_cast<double>(i) / kCoarse));
   }
 
+  Edge edge() const { return edge_; }
+
+  Point3 point(double along) const {
+    const auto [u, v] = edge_parameters(edge_, along);
+    return evaluate(*surface_, u, v);
+  }
+
+  SurfaceJet jet_at(double along) const {
+    const auto [u, v] = edge_parameters(edge_, along);
+    return jet(*surface_, u, v);
+  }
+
+  double length() const {
+    double length = 0;
+    for (int i = 1; i <= kCoarse; ++i) length += core::distance(points_[i - 1], points_[i]);
+    return length;
+  }
+
+  /// The nearest place, from samples and Newton's method on the squared distance.
   double nearest(const Point3& p) const {
     int best = 0;
     for (int i = 1; i <= kCoarse; ++i)
@@ -59,7 +67,7 @@ class EdgeProjection {
                                    std::min(best + 1, kCoarse) / static_cast<double>(kCoarse)};
     double t = best / static_cast<double>(kCoarse);
     for (int step = 0; step < 60 && between.high - between.low > 1e-15; ++step) {
-      const EdgeJet j = edge_jet(surface_, edge_, t);
+      const EdgeJet j = edge_jet(t);
       const Vector3 d = j.point - p;
       const double bend = dot(j.first, j.first) + dot(d, j.second);
       const double next = between.next(t, dot(d, j.first), bend);
@@ -70,7 +78,12 @@ class EdgeProjection {
   }
 
  private:
-  const Surface& surface_;
+  EdgeJet edge_jet(double along) const {
+    const SurfaceJet j = jet_at(along);
+    return is_u_edge(edge_) ? EdgeJet{j.point, j.v, j.vv} : EdgeJet{j.point, j.u, j.uu};
+  }
+
+  const Surface* surface_;
   Edge edge_;
   std::vector<Point3> points_;
 };
@@ -153,58 +166,48 @@ void compare(EdgeSample& sample, const SideState& a, SideState b, double size) {
   sample.stripe_density = stripe_density(a.form, b.form);
 }
 
-double edge_length(const Surface& s, Edge e) {
-  double length = 0;
-  Point3 before = edge_jet(s, e, 0).point;
-  for (int i = 1; i <= kCoarse; ++i) {
-    const Point3 here = edge_jet(s, e, static_cast<double>(i) / kCoarse).point;
-    length += core::distance(before, here);
-    before = here;
-  }
-  return length;
-}
-
-double worst_gap(const Surface& first, Edge a, const EdgeProjection& onto, const Surface& second,
-                 Edge b) {
+double worst_gap(const Border& from, const Border& to) {
   double worst = 0;
   for (int i = 0; i <= 16; ++i) {
-    const Point3 p = edge_jet(first, a, i / 16.0).point;
-    worst = std::max(worst, core::distance(p, edge_jet(second, b, onto.nearest(p)).point));
+    const Point3 p = from.point(i / 16.0);
+    worst = std::max(worst, core::distance(p, to.point(to.nearest(p))));
   }
   return worst;
 }
 
-struct Candidate {
-  Edge edge;
-  double length;
-};
-
 /// Edges that can be a joint: not those collapsed into a point, unless all are.
-std::vector<Candidate> candidates(const Surface& s) {
-  std::vector<Candidate> all;
-  for (const Edge e : kEdges) all.push_back({e, edge_length(s, e)});
+std::vector<Border> candidates(const Surface& s) {
+  std::vector<Border> all;
+  for (const Edge e : kEdges) all.emplace_back(s, e);
   const double least = kCollapsed * extent(net_of(s));
   auto drawn_out = all;
-  std::erase_if(drawn_out, [least](const Candidate& c) { return c.length <= least; });
+  std::erase_if(drawn_out, [least](const Border& b) { return b.length() <= least; });
   return drawn_out.empty() ? all : drawn_out;
 }
 
+/// The edges of which one lies along the other with the least gap.
 std::array<Edge, 2> nearest_edges(const Surface& first, const Surface& second) {
   const auto of_first = candidates(first);
   std::array<Edge, 2> best{};
   double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& b : candidates(second)) {
-    const EdgeProjection onto(second, b.edge);
-    for (const Candidate& a : of_first) {
+  for (const Border& b : candidates(second))
+    for (const Border& a : of_first) {
       const double gap =
-          worst_gap(first, a.edge, onto, second, b.edge) + 1e-12 * std::abs(a.length - b.length);
+          std::min(worst_gap(a, b), worst_gap(b, a)) + 1e-12 * std::abs(a.length() - b.length());
       if (gap < least) {
         least = gap;
-        best = {a.edge, b.edge};
+        best = {a.edge(), b.edge()};
       }
     }
-  }
   return best;
+}
+
+/// Whether the second edge is the one that lies along the other, and so is the one to compare
+/// whole; where both do, to rounding, that is the first.
+bool second_is_whole(const Border& first, const Border& second, double size) {
+  constexpr double kRounding = 1e-9;
+  const double most = worst_gap(first, second) - kRounding * size;
+  return most > 0 && worst_gap(second, first) < most;
 }
 
 /// Whether there is a stretch along which nothing but the gap was compared.
@@ -236,7 +239,23 @@ Result<void> check(const EdgeTolerance& t, int count) {
   return {};
 }
 
+/// Place `along[0]` of the first edge and `along[1]` of the second.
+EdgeSample sample_at(const Border& a, const Border& b, std::array<double, 2> along, double size) {
+  EdgeSample sample;
+  sample.along = along[0];
+  const SurfaceJet here = a.jet_at(along[0]);
+  const SurfaceJet there = b.jet_at(along[1]);
+  sample.position = here.point;
+  sample.gap = core::distance(here.point, there.point);
+  const auto out = side_of(here, a.edge(), true);
+  const auto in = side_of(there, b.edge(), false);
+  sample.defined = out && in;
+  if (sample.defined) compare(sample, *out, *in, size);
+  return sample;
+}
+
 void take_largest(EdgeContinuity& e, const EdgeSample& s) {
+  if (!s.defined) ++e.without_normal;
   e.gap = std::max(e.gap, s.gap);
   e.angle = std::max(e.angle, s.angle);
   e.curvature_jump = std::max(e.curvature_jump, s.curvature_jump);
@@ -283,31 +302,26 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
                                        const std::optional<std::array<Edge, 2>>& edges,
                                        const EdgeTolerance& tolerance, int count) {
   if (auto sound = check(tolerance, count); !sound) return std::unexpected(sound.error());
+  const double extent_of_both = std::max(extent(net_of(first)), extent(net_of(second)));
   EdgeContinuity result;
-  result.tolerance = with_gap(tolerance, std::max(extent(net_of(first)), extent(net_of(second))));
+  result.tolerance = with_gap(tolerance, extent_of_both);
   result.edges = edges ? *edges : nearest_edges(first, second);
-  const auto [a, b] = result.edges;
-  const EdgeProjection onto(second, b);
+  const Border a(first, result.edges[0]);
+  const Border b(second, result.edges[1]);
+  const bool swapped = second_is_whole(a, b, extent_of_both);
+  const Border& whole = swapped ? b : a;
+  const Border& other = swapped ? a : b;
 
-  result.length = edge_length(first, a);
+  result.length = whole.length();
   const double size = std::max(result.length, 1e-300);
   for (int i = 0; i < count; ++i) {
-    EdgeSample sample;
-    sample.along = i / (count - 1.0);
-    const SurfaceJet here = jet_at(first, a, sample.along);
-    const SurfaceJet there = jet_at(second, b, onto.nearest(here.point));
-    sample.position = here.point;
-    sample.gap = core::distance(here.point, there.point);
-    const auto out = side_of(here, a, true);
-    const auto in = side_of(there, b, false);
-    sample.defined = out && in;
-    if (sample.defined)
-      compare(sample, *out, *in, size);
-    else
-      ++result.without_normal;
-    take_largest(result, sample);
-    result.samples.push_back(sample);
+    const double along = i / (count - 1.0);
+    const double nearest = other.nearest(whole.point(along));
+    result.samples.push_back(
+        sample_at(a, b, swapped ? std::array{nearest, along} : std::array{along, nearest}, size));
+    take_largest(result, result.samples.back());
   }
+  std::ranges::stable_sort(result.samples, {}, &EdgeSample::along);
   sum_stripes(result);
   result.order = order_of(result);
   return result;

@@ -20,8 +20,9 @@ constexpr auto choices(const Edge*) {
 
 /// How far two surfaces may differ along a common edge and still count as joined. Curvature and its
 /// rate across the edge are compared relative to the larger of the two, curvature no smaller than
-/// 1 / size, its rate than 1 / size^2, with size the length of the edge. The angle is the usual one
-/// of class A; so is the gap, 0.001 mm of a panel of 100 mm, but in no unit: a share of the size.
+/// 1 / size, its rate than 1 / size^2, with size the length of what is compared. The angle is the
+/// usual one of class A; so is the gap, 0.001 mm of a panel of 100 mm, but in no unit: a share of
+/// the size.
 struct EdgeTolerance {
   std::optional<double> gap;  ///< unless set, kUsualGap of the size of what is compared
   double angle = 0.016 * 3.14159265358979323846 / 180;
@@ -82,17 +83,19 @@ struct EdgeContinuity {
   double gap = 0, angle = 0, curvature_jump = 0, rate_jump = 0;
   double relative_curvature_jump = 0, relative_rate_jump = 0;
   double stripe_turn = 0, turning = 0;
-  double length = 0;        ///< of the first edge
+  double length = 0;        ///< of the edge compared whole
   int without_normal = 0;   ///< samples that are not `defined`
   EdgeTolerance tolerance;  ///< its gap is set
   int order = -1;
 };
 
-/// Compares `count` places of the first edge with the nearest ones of the second edge, in whichever
-/// sense that runs; a second edge that is longer is compared over the common part. Without edges
-/// the pair with the least gap is taken, of those that are not collapsed. A gap that is not set is
-/// kUsualGap of the larger extent. Fails: bad_input for count < 2 or above 100,000, a tolerance
-/// that is negative or not finite.
+/// Compares `count` places of one edge with the nearest ones of the other, in whichever sense that
+/// runs. That edge is the first, or the second where it lies nearer along the first than the first
+/// along it: of a short edge and a long one the common part is compared, and both orders of the
+/// surfaces give the same. Samples follow the first edge. Without edges the pair with the least gap
+/// is taken, of those that are not collapsed. A gap that is not set is kUsualGap of the larger
+/// extent. Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not
+/// finite.
 core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,
                                              const std::optional<std::array<Edge, 2>>& edges = {},
                                              const EdgeTolerance& tolerance = {}, int count = 101);

@@ -52,6 +52,43 @@ TEST(EdgeContinuity, EdgesThatRunApartInAPlaneDoNotFold) {
   EXPECT_LT(c.angle, 1e-12);
 }
 
+void expect_the_same(const EdgeContinuity& one, const EdgeContinuity& two) {
+  EXPECT_EQ(one.edges, (std::array{two.edges[1], two.edges[0]}));
+  EXPECT_EQ(one.order, two.order);
+  EXPECT_NEAR(one.gap, two.gap, 1e-12);
+  EXPECT_NEAR(one.angle, two.angle, 1e-12);
+  EXPECT_NEAR(one.relative_curvature_jump, two.relative_curvature_jump, 1e-12);
+  EXPECT_NEAR(one.length, two.length, 1e-12);
+}
+
+// A flat patch and a narrower cylinder that continues it, from y = 2 to y = 5 of 7.
+TEST(EdgeContinuity, TheCommonPartIsComparedWhicheverComesFirst) {
+  const double r = 4;
+  const BezierSurface flat{{2, 2, {{-5, 0, r}, {-5, 7, r}, {0, 0, r}, {0, 7, r}}}, {}};
+  BezierSurface round = quarter_cylinder(0, 0, r, 3);
+  for (auto& p : round.net.points) p.y += 2;
+  const BezierSurface reversed = transposed(reversed_u(transposed(round)));
+  for (const BezierSurface& part : {round, reversed}) {
+    const EdgeContinuity c = joint(flat, part);
+    EXPECT_EQ(c.edges, (std::array{Edge::u1, Edge::u0}));
+    EXPECT_EQ(c.order, 1);
+    EXPECT_LT(c.gap, 1e-12);
+    EXPECT_NEAR(c.curvature_jump, 1 / r, 1e-12);
+    EXPECT_NEAR(c.length, 3, 1e-12);
+    ASSERT_EQ(c.samples.size(), 101U);
+    for (int i = 0; i <= 100; ++i) {
+      EXPECT_NEAR(c.samples[i].position.y, 2 + 0.03 * i, 1e-12);
+      EXPECT_NEAR(c.samples[i].along, (2 + 0.03 * i) / 7, 1e-12);
+    }
+    expect_the_same(joint(part, flat), c);
+  }
+  // Lifted, the same gap is seen from both.
+  for (auto& p : round.net.points) p.z += 0.01;
+  const EdgeContinuity lifted = joint(flat, round, std::array{Edge::u1, Edge::u0});
+  EXPECT_NEAR(lifted.gap, 0.01, 1e-12);
+  expect_the_same(joint(round, flat, std::array{Edge::u0, Edge::u1}), lifted);
+}
+
 TEST(EdgeContinuity, JumpsHaveTheirSize) {
   // A flat top runs into a quarter cylinder: curvature 0 to 1/r, the rate 0 on both sides.
   const double r = 4;
