@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -65,14 +66,36 @@ TEST(MeshSection, PointsStandWhereTheEdgesMeetThePlane) {
   EXPECT_EQ(at_zero(mesh)[0].points[1], (Point2{4, 5}));
 }
 
-// A vertex on the plane counts as above it: one below it is cut at the vertex, of one above
-// nothing.
-TEST(MeshSection, VerticesOnThePlaneAreAboveIt) {
-  Mesh below{{{0, 0, 0}, {4, 0, 0}, {2, 0, -1}}, {{0, 1, 2}}, {}, {}};
-  ASSERT_EQ(at_zero(below).size(), 1U);
-  EXPECT_EQ(width(at_zero(below)[0]), 4);
-  Mesh above{{{0, 0, 0}, {4, 0, 0}, {2, 0, 1}}, {{0, 1, 2}}, {}, {}};
-  EXPECT_TRUE(at_zero(above).empty());
+// Half a model ends in the plane of its symmetry: there is a border on whichever side it lies, of a
+// flat one and of a block, whose faces there are closed.
+TEST(MeshSection, BordersOnThePlaneAreCutFromEitherSide) {
+  for (const double side : {-1.0, 1.0}) {
+    SCOPED_TRACE(side);
+    const Mesh flat{{{0, 0, 0}, {4, 0, 0}, {2, 0, side}}, {{0, 1, 2}}, {}, {}};
+    ASSERT_EQ(at_zero(flat).size(), 1U);
+    EXPECT_EQ(width(at_zero(flat)[0]), 4);
+    const auto block = read_obj(
+        "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nv 0 0 1\nv 2 0 1\nv 2 3 1\nv 0 3 1\n"
+        "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    const auto lines = section(*block, acquire::plane_of({0, 0, 1}, side > 0 ? 0 : 1));
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(lines[0].closed);
+    EXPECT_THAT(lines[0].points,
+                testing::IsSupersetOf({Point2{0, 0}, Point2{2, 0}, Point2{2, 3}, Point2{0, 3}}));
+  }
+}
+
+// A vertex on the plane counts as above it where anything is cut so: of a triangle above there is
+// nothing then, and of a vertex alone there never is.
+TEST(MeshSection, VerticesOnThePlaneAreOnOneSide) {
+  Mesh mesh{{{0, 0, 0}, {4, 0, 0}, {2, 0, 1}, {9, 0, 1}, {9, 0, -1}, {8, 0, 1}},
+            {{0, 1, 2}, {3, 4, 5}},
+            {},
+            {}};
+  ASSERT_EQ(at_zero(mesh).size(), 1U);
+  EXPECT_EQ(width(at_zero(mesh)[0]), 0.5);
+  for (const double side : {-1.0, 1.0})
+    EXPECT_TRUE(at_zero({{{0, 0, 0}, {4, 0, side}, {2, 0, side}}, {{0, 1, 2}}, {}, {}}).empty());
 }
 
 // Three walls that meet in one edge: three lines, none closed.
@@ -175,6 +198,20 @@ TEST(Section, TellsWhatWasSkippedWhereNothingIsMet) {
   std::filesystem::remove(file);
   ASSERT_FALSE(cut);
   EXPECT_THAT(cut.error().message, testing::HasSubstr("\"0,5\" is no number and others"));
+}
+
+TEST(Section, TellsWhetherThePlaneTouches) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-touch-" + std::to_string(::getpid()) + ".obj");
+  std::ofstream(file) << "v 0 0 1\nv 1 0 2\nv 0 1 2\nf 1 2 3\n";
+  for (const auto& [where, why] :
+       {std::pair{"z=1", "the plane touches the mesh and cuts nothing of it"},
+        {"z=0.5", "the plane does not meet the mesh"}}) {
+    const auto cut = section_of_file(file, parse_section(where).value());
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().message, why);
+  }
+  std::filesystem::remove(file);
 }
 
 // Lines of an OBJ stand beside its faces and points: no plane cuts them, and that is told.

@@ -52,7 +52,8 @@ struct SectionLine {
 };
 
 /// All of them, longest first. Vertices on the plane count as above it, so that every triangle is
-/// cut in one segment or not at all and lines end at the mesh's border only; where more than two
+/// cut in one segment or not at all and lines end at the mesh's border only; where nothing is cut
+/// so they count as below, since the plane may be where half a model ends. Where more than two
 /// triangles share an edge, lines part there. Points stand on the mesh's edges, in order.
 std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane);
 

@@ -45,7 +45,8 @@ struct HashPoint {
 
 class Section {
  public:
-  Section(const Mesh& mesh, const acquire::Plane& plane) : mesh_(mesh), plane_(plane) {
+  Section(const Mesh& mesh, const acquire::Plane& plane, bool on_plane_is_above)
+      : mesh_(mesh), plane_(plane), on_plane_is_above_(on_plane_is_above) {
     height_.reserve(mesh.points.size());
     for (const Point3 p : mesh.points) height_.push_back(acquire::distance_from_plane(plane, p));
     for (const auto& triangle : mesh.triangles) cut(triangle);
@@ -80,6 +81,10 @@ class Section {
   }
 
  private:
+  bool is_above(std::uint32_t vertex) const {
+    return height_[vertex] > 0 || (on_plane_is_above_ && height_[vertex] == 0);
+  }
+
   void cut(const std::array<std::uint32_t, 3>& t) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return;
     std::array<Edge, 2> crossed{};
@@ -88,7 +93,7 @@ class Section {
       const std::uint32_t a = t[i];
       const std::uint32_t b = t[(i + 1) % 3];
       if (!std::isfinite(height_[a])) return;
-      if ((height_[a] >= 0) != (height_[b] >= 0) && count < 2)
+      if (is_above(a) != is_above(b) && count < 2)
         crossed[count++] = edge_of(first_at(a), first_at(b));
     }
     if (count == 2) segments_.push_back({crossed[0], crossed[1]});
@@ -129,6 +134,7 @@ class Section {
 
   const Mesh& mesh_;
   acquire::Plane plane_;
+  bool on_plane_is_above_;
   std::vector<double> height_;
   std::vector<Segment> segments_;
   std::unordered_map<Point3, std::uint32_t, HashPoint> first_;
@@ -139,7 +145,9 @@ class Section {
 }  // namespace
 
 std::vector<SectionLine> section(const Mesh& mesh, const acquire::Plane& plane) {
-  return Section(mesh, plane).lines();
+  for (const bool on_plane_is_above : {true, false})
+    if (auto lines = Section(mesh, plane, on_plane_is_above).lines(); !lines.empty()) return lines;
+  return {};
 }
 
 bool is_mesh_file(const std::filesystem::path& file) {

@@ -90,7 +90,10 @@ Result<FileSection> mesh_section(const Mesh& mesh, const SectionRequest& request
     result.closed.push_back(line.closed);
   }
   if (result.curves.empty()) {
-    std::string what = "the plane does not meet the mesh";
+    const bool touched = std::ranges::any_of(
+        mesh.points, [&](Point3 p) { return acquire::distance_from_plane(*plane, p) == 0; });
+    std::string what = touched ? "the plane touches the mesh and cuts nothing of it"
+                               : "the plane does not meet the mesh";
     if (!mesh.skipped.empty()) what += "; skipped: " + mesh.skipped.front();
     if (mesh.skipped.size() > 1) what += " and others";
     return core::fail(ErrorCode::bad_input, what, "move it", "--section");
