@@ -1,5 +1,8 @@
 #include "keyline/exchange/svg/svg_style.h"
 
+#include <chrono>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "keyline/exchange/svg/svg_reader.h"
@@ -114,8 +117,21 @@ constexpr PaintCase kPaints[] = {
     {".a{stroke:lime}/* .a{fill:red}", "class='a'", "#00ff00", "#ffffff", 3},
     {".x , .a,#i{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
     {".x,.a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
-    {".a{stroke:lime", "class='a'", "#000000", "#ffffff", 3},
+    // The end of the sheet closes what is open (CSS Syntax 3, 5).
+    {".a{stroke:lime", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{stroke:lime/*", "class='a'", "#00ff00", "#ffffff", 3},
+    // A string ends at its own quote, not one behind a backslash, else with its line.
+    {"text{font-family:\"O\\\"Neil\"} .a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {"text{font-family:O\\'Neil} .a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".x{font-family:Arial'\n} .a{stroke:lime}", "class='a'", "#00ff00", "#ffffff", 3},
+    {"<!-- .a{stroke:lime} -->", "class='a'", "#00ff00", "#ffffff", 3},
+    // What is important outranks all that is not (CSS Cascading 4, 6.1); other marks are a mistake.
     {".a{stroke:lime !important}", "class='a'", "#00ff00", "#ffffff", 3},
+    {".a{stroke:lime ! IMPORTANT}#p{stroke:blue}", "class='a' id='p' style='stroke:red'", "#00ff00",
+     "#ffffff", 3},
+    {".a{stroke:lime!important}#p{stroke:blue!important}", "class='a' id='p'", "#0000ff", "#ffffff",
+     3},
+    {".a{stroke:lime}.a{stroke:red !ie}", "class='a'", "#00ff00", "#ffffff", 3},
     // The more a selector says the more it counts (Selectors 4, 17); of equal ones the later, in
     // whatever order the element names its classes.
     {"path.a{stroke:lime}.a{stroke:red}", "class='a'", "#00ff00", "#ffffff", 3},
@@ -197,6 +213,35 @@ TEST(SvgStyles, CountWhatTheyLetPass) {
       "@media print{.b{stroke:red}.c{fill:red}} @import 'a;b.css'; g .a{stroke:red}"
       ".a.b,.c,path#i{fill:red} .x{fill:red;.z{fill:red}} *,path.a,#i{fill:none}");
   EXPECT_EQ(styles.passed(), 6U);
+}
+
+// Whatever an open quote or bracket swallows is told; a rule that styles nothing is not let pass.
+TEST(SvgStyles, CountWhatIsLostInAnOpenOne) {
+  const auto passed = [](std::string_view sheet) {
+    SvgStyles styles;
+    styles.add_sheet(sheet);
+    return styles.passed();
+  };
+  EXPECT_EQ(passed(".x{font-family:Arial'}\n.a{stroke:red}"), 1U);
+  EXPECT_EQ(passed(".x{background:url(foo} .a{stroke:red}"), 1U);
+  EXPECT_EQ(passed("path .a"), 1U);
+  EXPECT_EQ(passed("@charset \"utf-8\"; @namespace url(http://www.w3.org/2000/svg);"
+                   "@font-face{font-family:x} <!-- .a{stroke:red} -->"),
+            0U);
+}
+
+// One rule may name an element thousands of times: its declarations are read once all the same.
+TEST(SvgStyles, ASelectorRepeatedCostsOnce) {
+  std::string selectors = "path";
+  for (int i = 0; i < 9'000; ++i) selectors += i % 2 == 0 ? ",path" : ",.a" + std::to_string(i);
+  std::string names;
+  for (int i = 1; i < 9'000; i += 2) names += " a" + std::to_string(i);
+  std::string body;
+  for (int i = 0; i < 20'000; ++i) body += "stroke:red;";
+  const auto begin = std::chrono::steady_clock::now();
+  const SvgPaint paint = painted(selectors + "{" + body + "}", "class='" + names + "'");
+  EXPECT_EQ(paint.stroke, "#ff0000");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));  // else a minute
 }
 
 // As Illustrator and CorelDRAW write it: the sheet is its text and its CDATA together.

@@ -42,7 +42,6 @@ bool shows(std::string_view opacity) {
 }
 
 void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
-  value = trimmed(value.substr(0, value.find('!')), kSpace);
   if (value.empty() || value == "inherit") return;
   if (name == "stroke") {
     paint.stroke = paint_of(paint, value);
@@ -65,7 +64,7 @@ void declare(SvgPaint& paint, std::string_view name, std::string_view value) {
 /// The colour that others call the current one.
 void take_current(SvgPaint& paint, std::string_view name, std::string_view value) {
   if (name != "color") return;
-  const std::string color = css_color(trimmed(value.substr(0, value.find('!')), kSpace));
+  const std::string color = css_color(value);
   if (!color.empty()) paint.current = color;
 }
 
@@ -75,7 +74,6 @@ struct Sight {
   bool opaque = true;
 
   void take(SvgPaint& paint, std::string_view name, std::string_view value) {
-    value = trimmed(value.substr(0, value.find('!')), kSpace);
     if (name == "display") displayed = value != "none";
     if (name == "opacity") opaque = shows(value);
     if (name != "visibility") return;
@@ -84,14 +82,25 @@ struct Sight {
   }
 };
 
-/// Calls each(name, value) for every declaration.
+std::string_view without_mark(std::string_view value) {
+  return trimmed(value.substr(0, value.find('!')), kSpace);
+}
+
+/// Whether a value has the mark "!important", or none where that is not wanted.
+bool is_marked(std::string_view value, bool wanted) {
+  const std::size_t mark = value.find('!');
+  if (mark == value.npos) return !wanted;
+  return wanted && lower_case(trimmed(value.substr(mark + 1), kSpace)) == "important";
+}
+
+/// Calls each(name, value) for every declaration that is important, or for every other.
 template <class Each>
-void each_declaration(std::string_view text, Each each) {
+void each_declaration(std::string_view text, bool important, Each each) {
   while (!text.empty()) {
     const std::string_view one = text.substr(0, text.find(';'));
     const std::size_t colon = one.find(':');
-    if (colon != one.npos)
-      each(trimmed(one.substr(0, colon), kSpace), trimmed(one.substr(colon + 1), kSpace));
+    if (colon != one.npos && is_marked(one.substr(colon + 1), important))
+      each(trimmed(one.substr(0, colon), kSpace), without_mark(one.substr(colon + 1)));
     text.remove_prefix(std::min(text.size(), one.size() + 1));
   }
 }
@@ -109,14 +118,19 @@ std::string without_comments(std::string_view css) {
   return result;
 }
 
-/// Where one of `wanted` stands outside of strings and round brackets; the size where none does.
+/// Where one of `wanted` stands outside of strings and round brackets, not behind a backslash; the
+/// size where none does. A string ends at the end of its line (CSS Syntax 3, 4.3.5).
 std::size_t find_bare(std::string_view css, std::string_view wanted, std::size_t from) {
   int brackets = 0;
   char quote = 0;
   for (std::size_t at = from; at < css.size(); ++at) {
     const char c = css[at];
+    if (c == '\\') {
+      ++at;
+      continue;
+    }
     if (quote != 0) {
-      if (c == quote) quote = 0;
+      if (c == quote || c == '\n' || c == '\r' || c == '\f') quote = 0;
       continue;
     }
     if (c == '"' || c == '\'') quote = c;
@@ -127,6 +141,11 @@ std::size_t find_bare(std::string_view css, std::string_view wanted, std::size_t
   return css.size();
 }
 
+/// The length of a mark that hides sheets from old readers of HTML, and says nothing; else 0.
+std::size_t html_mark(std::string_view css) {
+  return css.starts_with("<!--") ? 4 : css.starts_with("-->") ? 3 : 0;
+}
+
 /// Where the block that begins at `open` is closed; the size where it is not.
 std::size_t end_of_block(std::string_view css, std::size_t open) {
   std::size_t at = open;
@@ -135,6 +154,14 @@ std::size_t end_of_block(std::string_view css, std::size_t open) {
     if (at < css.size()) depth += css[at] == '{' ? 1 : -1;
   }
   return at;
+}
+
+/// Whether a rule with @ styles nothing by itself.
+bool is_declarative(std::string_view rule) {
+  static constexpr auto kNames =
+      std::to_array<std::string_view>({"@charset", "@namespace", "@font-face"});
+  const std::string name = lower_case(rule.substr(0, rule.find_first_of(" \t\r\n\f{;\"'")));
+  return std::ranges::find(kNames, name) != kNames.end();
 }
 
 /// Of names in CSS those without escapes.
@@ -153,6 +180,10 @@ bool is_followed(std::string_view selector) {
   return mark == 0 || (selector[mark] == '.' && is_plain_name(selector.substr(0, mark)));
 }
 
+void add_once(std::vector<std::size_t>& ascending, std::size_t value) {
+  if (ascending.empty() || ascending.back() != value) ascending.push_back(value);
+}
+
 /// Each once.
 std::vector<std::string_view> classes_of(const pugi::xml_node& node) {
   std::vector<std::string_view> all;
@@ -162,8 +193,7 @@ std::vector<std::string_view> classes_of(const pugi::xml_node& node) {
     rest.remove_prefix(all.back().size());
   }
   std::ranges::sort(all);
-  const auto repeated = std::ranges::unique(all);
-  all.erase(repeated.begin(), repeated.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -184,14 +214,20 @@ std::vector<std::string> SvgPaint::unread() const {
 void SvgStyles::add_sheet(std::string_view css) {
   const std::string text = without_comments(css);
   for (std::string_view rest = text; !(rest = trimmed(rest, kSpace)).empty();) {
+    if (const std::size_t mark = html_mark(rest); mark > 0) {
+      rest.remove_prefix(mark);
+      continue;
+    }
     const bool at_rule = rest.front() == '@';
     const std::size_t open = find_bare(rest, at_rule ? "{;" : "{", 0);
-    if (open == rest.size()) return;
-    const std::size_t end = rest[open] == ';' ? open : end_of_block(rest, open);
+    const bool block = open < rest.size() && rest[open] == '{';
+    const std::size_t end = block ? end_of_block(rest, open) : open;
     if (at_rule)
-      ++passed_;
-    else if (end < rest.size())
+      passed_ += !is_declarative(rest);
+    else if (block)  // the last may be closed by the end alone
       add_rule(rest.substr(0, open), rest.substr(open + 1, end - open - 1));
+    else
+      ++passed_;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
 }
@@ -216,7 +252,7 @@ void SvgStyles::add_rule(std::string_view selectors, std::string_view body) {
     const bool taken = is_followed(selector) && taken_ < kMost;
     taken_ += taken;
     passed_ += !taken;
-    if (taken) rules_[std::string(selector)].push_back(bodies_.size() - 1);
+    if (taken) add_once(rules_[std::string(selector)], bodies_.size() - 1);
     selectors.remove_prefix(std::min(selectors.size(), one.size() + 1));
   }
 }
@@ -232,6 +268,7 @@ std::vector<std::string_view> SvgStyles::declarations(const pugi::xml_node& node
   // Of selectors that are equally specific the order in the sheets decides.
   const auto take_found = [&] {
     std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     for (const std::size_t body : found) all.push_back(bodies_[body]);
     found.clear();
   };
@@ -261,10 +298,13 @@ SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
   const auto each = [&](auto take) {
     for (const char* name : {"color", "stroke", "fill", "stroke-width", "stroke-opacity",
                              "fill-opacity", "vector-effect", "display", "visibility", "opacity"})
-      if (const pugi::xml_attribute own = node.attribute(name)) take(paint, name, own.value());
-    for (const std::string_view some : declared)
-      each_declaration(
-          some, [&](std::string_view name, std::string_view value) { take(paint, name, value); });
+      if (const pugi::xml_attribute own = node.attribute(name))
+        take(paint, name, without_mark(own.value()));
+    for (const bool important : {false, true})
+      for (const std::string_view some : declared)
+        each_declaration(some, important, [&](std::string_view name, std::string_view value) {
+          take(paint, name, value);
+        });
   };
   each(take_current);
   each(declare);
@@ -278,10 +318,11 @@ SvgPaint SvgStyles::paint(const pugi::xml_node& node, SvgPaint paint) const {
 
 bool SvgStyles::declares(const pugi::xml_node& node, std::span<const char* const> names) const {
   bool found = false;
+  const auto take = [&](std::string_view name, std::string_view value) {
+    found = found || (value != "none" && std::ranges::find(names, name) != names.end());
+  };
   for (const std::string_view some : declarations(node))
-    each_declaration(some, [&](std::string_view name, std::string_view value) {
-      found = found || (value != "none" && std::ranges::find(names, name) != names.end());
-    });
+    for (const bool important : {false, true}) each_declaration(some, important, take);
   return found;
 }
 

@@ -39,7 +39,8 @@ struct SvgPaint {
 
 /// Style of elements: their attributes, then the rules of <style> for "*", their name, ".class",
 /// "name.class" and "#id", in this order and within it in that of the sheets (others are let pass),
-/// then their own style attribute; CSS Cascading 4, Selectors 4.
+/// then their own style attribute, then what of the CSS is `!important`; CSS Cascading 4,
+/// Selectors 4.
 class SvgStyles {
  public:
   /// Takes the rules of a sheet; of very many the first 10,000.
