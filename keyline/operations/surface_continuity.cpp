@@ -22,7 +22,8 @@ struct EdgeRequest {
             "collapsed into a point"),
         core::flattened<&Request::tolerance>(),
         core::field<&Request::places>(
-            "places along the edge; where one edge lies along part of the other, along that part")
+            "places along the edge; where one edge lies along part of the other, along that part; "
+            "knots of both edges and the middles between are compared besides")
             .within(core::from_to(2, 100'000)));
   }
 };

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
 #include "keyline/core/axis.h"
-#include "keyline/numeric/newton_bracket.h"
+#include "keyline/surface/border.h"
 #include "keyline/surface/curvature.h"
 #include "keyline/surface/stripe_turn.h"
 
@@ -24,69 +25,6 @@ using core::Vector3;
 namespace {
 
 constexpr std::array<Edge, 4> kEdges{Edge::u0, Edge::u1, Edge::v0, Edge::v1};
-constexpr int kCoarse = 64;
-
-bool is_u_edge(Edge e) { return e == Edge::u0 || e == Edge::u1; }
-
-struct EdgeJet {
-  Point3 point;
-  Vector3 first, second;  ///< by `along`
-};
-
-/// An edge with samples of it.
-class Border {
- public:
-  Border(const Surface& s, Edge e) : surface_(&s), edge_(e) {
-    for (int i = 0; i <= kCoarse; ++i) points_.push_back(point(static_cast<double>(i) / kCoarse));
-  }
-
-  Edge edge() const { return edge_; }
-
-  Point3 point(double along) const {
-    const auto [u, v] = edge_parameters(edge_, along);
-    return evaluate(*surface_, u, v);
-  }
-
-  SurfaceJet jet_at(double along) const {
-    const auto [u, v] = edge_parameters(edge_, along);
-    return jet(*surface_, u, v);
-  }
-
-  double length() const {
-    double length = 0;
-    for (int i = 1; i <= kCoarse; ++i) length += core::distance(points_[i - 1], points_[i]);
-    return length;
-  }
-
-  /// The nearest place, from samples and Newton's method on the squared distance.
-  double nearest(const Point3& p) const {
-    int best = 0;
-    for (int i = 1; i <= kCoarse; ++i)
-      if (core::distance(points_[i], p) < core::distance(points_[best], p)) best = i;
-    numeric::NewtonBracket between{std::max(best - 1, 0) / static_cast<double>(kCoarse),
-                                   std::min(best + 1, kCoarse) / static_cast<double>(kCoarse)};
-    double t = best / static_cast<double>(kCoarse);
-    for (int step = 0; step < 60 && between.high - between.low > 1e-15; ++step) {
-      const EdgeJet j = edge_jet(t);
-      const Vector3 d = j.point - p;
-      const double bend = dot(j.first, j.first) + dot(d, j.second);
-      const double next = between.next(t, dot(d, j.first), bend);
-      if (std::abs(next - t) < 1e-15) break;
-      t = next;
-    }
-    return t;
-  }
-
- private:
-  EdgeJet edge_jet(double along) const {
-    const SurfaceJet j = jet_at(along);
-    return is_u_edge(edge_) ? EdgeJet{j.point, j.v, j.vv} : EdgeJet{j.point, j.u, j.uu};
-  }
-
-  const Surface* surface_;
-  Edge edge_;
-  std::vector<Point3> points_;
-};
 
 /// Frame at an edge: along it, out of the surface (or into it), and the normal of the two.
 struct EdgeFrame {
@@ -152,18 +90,22 @@ SideState turned(SideState s) {
   return s;
 }
 
+/// Raises what the sample has by what the sides differ in.
 void compare(EdgeSample& sample, const SideState& a, SideState b, double size) {
   if (dot(a.frame.along, b.frame.along) < 0) b = turned(b);
-  sample.angle = core::angle_between(a.frame.normal, b.frame.normal);  // edges may run apart
+  const auto take = [](double& most, double value) { most = std::max(most, value); };
+  take(sample.angle, core::angle_between(a.frame.normal, b.frame.normal));  // edges may run apart
   const CurvatureForm jump{b.form.xx - a.form.xx, b.form.xy - a.form.xy, b.form.yy - a.form.yy};
-  sample.curvature_jump = largest_curvature(jump);
-  sample.rate_jump = std::abs(b.rate - a.rate);
+  const double curvature_jump = largest_curvature(jump);
+  const double rate_jump = std::abs(b.rate - a.rate);
   const double bend = std::max({largest_curvature(a.form), largest_curvature(b.form), 1 / size});
   const double rate = std::max({std::abs(a.rate), std::abs(b.rate), 1 / (size * size)});
-  sample.relative_curvature_jump = sample.curvature_jump / bend;
-  sample.relative_rate_jump = sample.rate_jump / rate;
-  sample.stripe_turn = stripe_turn(a.form, b.form);
-  sample.stripe_density = stripe_density(a.form, b.form);
+  take(sample.curvature_jump, curvature_jump);
+  take(sample.rate_jump, rate_jump);
+  take(sample.relative_curvature_jump, curvature_jump / bend);
+  take(sample.relative_rate_jump, rate_jump / rate);
+  take(sample.stripe_turn, stripe_turn(a.form, b.form));
+  take(sample.stripe_density, stripe_density(a.form, b.form));
 }
 
 double worst_gap(const Border& from, const Border& to) {
@@ -202,13 +144,99 @@ std::array<Edge, 2> nearest_edges(const Surface& first, const Surface& second) {
   return best;
 }
 
-/// Whether the second edge is the one that lies along the other, and so is the one to compare
-/// whole; where both do, to rounding, that is the first.
-bool second_is_whole(const Border& first, const Border& second, double size) {
-  constexpr double kRounding = 1e-9;
-  const double most = worst_gap(first, second) - kRounding * size;
-  return most > 0 && worst_gap(second, first) < most;
-}
+/// A place of both edges, found from one of them. At a knot derivatives are those of growing
+/// parameters, which are not the same side where edges run against each other: there the surfaces
+/// are compared `beside` it, on both sides.
+struct Place {
+  std::array<double, 2> along{};
+  int from = 0;
+  std::array<double, 2> beside{};
+};
+
+/// The two edges, and which of them is compared whole: the second where it lies nearer along the
+/// first than the first along it; where both do, to rounding, the first.
+class BorderPair {
+ public:
+  BorderPair(const Surface& first, const Surface& second, std::array<Edge, 2> edges, double extent)
+      : borders_{Border(first, edges[0]), Border(second, edges[1])} {
+    constexpr double kRounding = 1e-9;
+    const double most = worst_gap(borders_[0], borders_[1]) - kRounding * extent;
+    whole_ = most > 0 && worst_gap(borders_[1], borders_[0]) < most ? 1 : 0;
+  }
+
+  double length() const { return borders_[whole_].length(); }
+
+  /// `count` places of the edge compared whole, and what there is in the common part of stations
+  /// of either, along the first.
+  std::vector<Place> places(int count) const {
+    std::vector<Place> all;
+    for (int i = 0; i < count; ++i) all.push_back(place(whole_, i / (count - 1.0)));
+    for (const double at : borders_[whole_].stations()) all.push_back(place(whole_, at));
+    const auto common = common_part();
+    for (const double at : borders_[1 - whole_].stations())
+      if (common(at)) all.push_back(place(1 - whole_, at));
+    std::ranges::stable_sort(all, {}, [](const Place& p) { return p.along; });
+    const auto same = [](const Place& p, const Place& q) {
+      return std::abs(p.along[0] - q.along[0]) < kSame && std::abs(p.along[1] - q.along[1]) < kSame;
+    };
+    const auto again = std::ranges::unique(all, same);
+    all.erase(again.begin(), again.end());
+    return all;
+  }
+
+  EdgeSample sample(const Place& p, double size) const {
+    EdgeSample sample;
+    sample.along = p.along[0];
+    sample.position = borders_[0].point(p.along[0]);
+    sample.gap = core::distance(sample.position, borders_[1].point(p.along[1]));
+    measure(sample, p.beside[0] == 0 ? p.along : both(p.from, p.along[p.from] + p.beside[0]), size);
+    if (p.beside[1] != p.beside[0])
+      measure(sample, both(p.from, p.along[p.from] + p.beside[1]), size);
+    return sample;
+  }
+
+ private:
+  static constexpr double kSame = 1e-9;
+  static constexpr double kBeside = 1e-6;
+
+  std::array<double, 2> both(int from, double at) const {
+    const double other = borders_[1 - from].nearest(borders_[from].point(at));
+    return from == 0 ? std::array{at, other} : std::array{other, at};
+  }
+
+  Place place(int from, double at) const {
+    Place p{both(from, at), from, {}};
+    if (!borders_[0].has_knot(p.along[0], kSame) && !borders_[1].has_knot(p.along[1], kSame))
+      return p;
+    p.beside = {at > 0 ? -kBeside : kBeside, at < 1 ? kBeside : -kBeside};
+    return p;
+  }
+
+  /// Whether a place of the other edge lies beside the one compared whole: between where that one's
+  /// ends are, or, of a closed edge, outside of that.
+  std::function<bool(double)> common_part() const {
+    const auto [low, high] =
+        std::minmax({both(whole_, 0)[1 - whole_], both(whole_, 1)[1 - whole_]});
+    const double middle = both(whole_, 0.5)[1 - whole_];
+    const bool between = middle > low - kSame && middle < high + kSame;
+    return [=](double at) {
+      return between ? at > low + 2 * kBeside && at < high - 2 * kBeside
+                     : at < low - 2 * kBeside || at > high + 2 * kBeside;
+    };
+  }
+
+  void measure(EdgeSample& sample, std::array<double, 2> along, double size) const {
+    const auto out = side_of(borders_[0].jet_at(along[0]), borders_[0].edge(), true);
+    const auto in = side_of(borders_[1].jet_at(along[1]), borders_[1].edge(), false);
+    if (out && in)
+      compare(sample, *out, *in, size);
+    else
+      sample.defined = false;
+  }
+
+  std::array<Border, 2> borders_;
+  int whole_ = 0;
+};
 
 /// Whether there is a stretch along which nothing but the gap was compared.
 bool has_unmeasured_stretch(const EdgeContinuity& e) {
@@ -237,21 +265,6 @@ Result<void> check(const EdgeTolerance& t, int count) {
       return fail(ErrorCode::bad_input, "the tolerance is negative or not finite", "give 0 or more",
                   name);
   return {};
-}
-
-/// Place `along[0]` of the first edge and `along[1]` of the second.
-EdgeSample sample_at(const Border& a, const Border& b, std::array<double, 2> along, double size) {
-  EdgeSample sample;
-  sample.along = along[0];
-  const SurfaceJet here = a.jet_at(along[0]);
-  const SurfaceJet there = b.jet_at(along[1]);
-  sample.position = here.point;
-  sample.gap = core::distance(here.point, there.point);
-  const auto out = side_of(here, a.edge(), true);
-  const auto in = side_of(there, b.edge(), false);
-  sample.defined = out && in;
-  if (sample.defined) compare(sample, *out, *in, size);
-  return sample;
 }
 
 void take_largest(EdgeContinuity& e, const EdgeSample& s) {
@@ -306,22 +319,14 @@ Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& seco
   EdgeContinuity result;
   result.tolerance = with_gap(tolerance, extent_of_both);
   result.edges = edges ? *edges : nearest_edges(first, second);
-  const Border a(first, result.edges[0]);
-  const Border b(second, result.edges[1]);
-  const bool swapped = second_is_whole(a, b, extent_of_both);
-  const Border& whole = swapped ? b : a;
-  const Border& other = swapped ? a : b;
+  const BorderPair pair(first, second, result.edges, extent_of_both);
 
-  result.length = whole.length();
+  result.length = pair.length();
   const double size = std::max(result.length, 1e-300);
-  for (int i = 0; i < count; ++i) {
-    const double along = i / (count - 1.0);
-    const double nearest = other.nearest(whole.point(along));
-    result.samples.push_back(
-        sample_at(a, b, swapped ? std::array{nearest, along} : std::array{along, nearest}, size));
+  for (const Place& place : pair.places(count)) {
+    result.samples.push_back(pair.sample(place, size));
     take_largest(result, result.samples.back());
   }
-  std::ranges::stable_sort(result.samples, {}, &EdgeSample::along);
   sum_stripes(result);
   result.order = order_of(result);
   return result;

@@ -92,7 +92,9 @@ struct EdgeContinuity {
 /// Compares `count` places of one edge with the nearest ones of the other, in whichever sense that
 /// runs. That edge is the first, or the second where it lies nearer along the first than the first
 /// along it: of a short edge and a long one the common part is compared, and both orders of the
-/// surfaces give the same. Samples follow the first edge. Without edges the pair with the least gap
+/// surfaces give the same. Every inner knot of both edges and the middles between are compared as
+/// well, of more than 2,048 spans those of every second, third, ... knot. Samples follow the first
+/// edge. Without edges the pair with the least gap
 /// is taken, of those that are not collapsed. A gap that is not set is kUsualGap of the larger
 /// extent. Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not
 /// finite.

@@ -89,6 +89,51 @@ TEST(EdgeContinuity, TheCommonPartIsComparedWhicheverComesFirst) {
   expect_the_same(joint(round, flat, std::array{Edge::u0, Edge::u1}), lifted);
 }
 
+/// A strip from x = `from` to `to` over the polyline (y, z) at the knots y of [0, 1].
+BSplineSurface folded_strip(double from, double to, const std::vector<core::Point2>& line) {
+  BSplineSurface s;
+  s.degree = {1, 1};
+  s.knots = {{{0, 0, 1, 1}, {0}}};
+  s.net = {2, static_cast<int>(line.size()), {}};
+  for (const double x : {from, to})
+    for (const auto& [y, z] : line) s.net.points.push_back({x, y, z});
+  for (const auto& p : line) s.knots[1].push_back(p.x);
+  s.knots[1].push_back(1);
+  return s;
+}
+
+// A thousand spans, one vertex lifted: no one of 101 places is near it.
+TEST(EdgeContinuity, KnotsAreComparedToo) {
+  std::vector<core::Point2> level;
+  for (int i = 0; i <= 1000; ++i) level.push_back({i / 1000.0, 0});
+  auto lifted = level;
+  lifted[505].y = 0.5;
+  const auto edges = std::array{Edge::u1, Edge::u0};
+  for (const bool first : {true, false}) {
+    const EdgeContinuity c = joint(folded_strip(0, 1, first ? lifted : level),
+                                   folded_strip(1, 2, first ? level : lifted), edges);
+    EXPECT_NEAR(c.gap, 0.5, 1e-9) << first;
+    EXPECT_EQ(c.order, -1);
+  }
+}
+
+// A roof whose ridge runs on over the joint: both sides of it fold, but neither against the other,
+// in whichever sense the edges run, and where one edge ends at the ridge of the other.
+TEST(EdgeContinuity, ACreaseThatRunsOnIsNoFold) {
+  const Surface roof = folded_strip(0, 1, {{0, 0}, {0.5, 0.3}, {1, 0}});
+  const BSplineSurface next = folded_strip(1, 2, {{0, 0}, {0.5, 0.3}, {1, 0}});
+  const BezierSurface slope{{2, 2, {{1, 0, 0}, {1, 0.5, 0.3}, {2, 0, 0}, {2, 0.5, 0.3}}}, {}};
+  BSplineSurface against = next;
+  for (int i = 0; i < 2; ++i) std::swap(against.net.at(i, 0), against.net.at(i, 2));
+  for (const Surface& other : {Surface{next}, Surface{against}, Surface{slope}}) {
+    for (const EdgeContinuity& c : {joint(roof, other), joint(other, roof)}) {
+      EXPECT_EQ(c.order, 3);
+      EXPECT_LT(c.gap, 1e-12);
+      EXPECT_LT(c.angle, 1e-9);
+    }
+  }
+}
+
 TEST(EdgeContinuity, JumpsHaveTheirSize) {
   // A flat top runs into a quarter cylinder: curvature 0 to 1/r, the rate 0 on both sides.
   const double r = 4;
