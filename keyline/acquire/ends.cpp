@@ -15,6 +15,7 @@ constexpr double kSeamCorner = 0.9;  // radians; less is no corner at the seam o
 constexpr double kCornerTurns = 3;   // times what the curve beside it does
 constexpr double kClearance = 4;     // and less than so many standard errors of the turn there
 constexpr double kByChance = 2;      // the same of the turns beside it, which no corner is beside
+constexpr double kNoTurn = 1e-9;     // radians
 constexpr double kAbout = 0.7;       // of the steps at the ends: about as long as those
 
 /// Largest of the steps near both ends.
@@ -50,10 +51,18 @@ class FromEnd {
   bool first_;
 };
 
-/// An end of an outline: the direction of the step inwards, and how far the next one turns from it.
+/// An end of an outline: the direction of the step inwards, how far the next one turns from it, and
+/// the one after that from the next.
 struct EndStep {
   core::Vector2 inwards;
   double turn = 0;
+  double turn_before = 0;
+
+  /// What a curve that bends more and more, as on its way to a round tip, turns at the end, if of
+  /// the turn so much is sure and errors make that much.
+  double expected(double sure, double error) const {
+    return sure * std::max(1.0, sure / std::max({turn_before, error, kNoTurn}));
+  }
 };
 
 /// A step goes to the first point that is so far away: in shorter ones the points' errors may make
@@ -61,7 +70,9 @@ struct EndStep {
 EndStep end_step(const FromEnd& at, double away, std::size_t stride) {
   const std::size_t k = at.away(away, stride);
   const core::Vector2 step = at[k] - at[0];
-  return {step, std::abs(core::angle_between(step, at[2 * k] - at[k]))};
+  const core::Vector2 next = at[2 * k] - at[k];
+  return {step, std::abs(core::angle_between(step, next)),
+          std::abs(core::angle_between(next, at[3 * k] - at[2 * k]))};
 }
 
 /// Whether the turn from the gap into the steps at an end stands out from the curve's own beside
@@ -72,7 +83,8 @@ bool stands_out(const FromEnd& at, core::Vector2 over_gap, double away, std::siz
   const EndStep end = end_step(at, away, stride);
   const double by_chance = kByChance * std::sqrt(1.5) * 2 * noise / core::norm(end.inwards);
   const double sure = std::sqrt(std::max(0.0, end.turn * end.turn - by_chance * by_chance));
-  return std::abs(core::angle_between(over_gap, end.inwards)) >= kCornerTurns * sure;
+  return std::abs(core::angle_between(over_gap, end.inwards)) >=
+         kCornerTurns * end.expected(sure, by_chance);
 }
 
 /// Whether both ends are corners, each by itself: at a round tip the seam holds the turns of two
@@ -125,12 +137,14 @@ Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride, bo
   const EndStep last = end_step({points, false}, away, s);
   const EndStep first = end_step({points, true}, away, s);
   const double seam = core::angle_between(-last.inwards, first.inwards);
-  const double beside = std::max(last.turn, first.turn);
   // Of steps without a common end, and of the next ones, which have one that counts twice.
   const double error = 2 * noise / away;
-  const double sure = beside - kByChance * std::sqrt(1.5) * error;
+  const double by_chance = kByChance * std::sqrt(1.5) * error;
+  const auto expected = [by_chance](const EndStep& end) {
+    return end.expected(std::max(0.0, end.turn - by_chance), by_chance);
+  };
   const bool corner = std::abs(seam) >= std::max(kSeamCorner, kClearance * error) &&
-                      std::abs(seam) >= kCornerTurns * sure;
+                      std::abs(seam) >= kCornerTurns * std::max(expected(last), expected(first));
   if (repeated) return corner ? Ends::corner_repeated : Ends::closed_repeated;
   if (!corner) return Ends::closed;
   const core::Vector2 chord = points.front() - points.back();

@@ -24,7 +24,7 @@ enum class Ends {
 /// of so many points has by chance in one case of a hundred, still closes where the curve runs
 /// straight across it.
 /// noise: standard deviation of a point's position; what it explains of turns is no corner at the
-/// ends and hides none.
+/// ends and hides none. What a curve turns that bends more and more towards them is none either.
 Ends recognise_ends(std::span<const core::Point2> points, std::size_t stride,
                     bool scattered = false, double noise = 0);
 

@@ -49,6 +49,35 @@ TEST(RecogniseEnds, OutlinesOfFewPointsAreClosedWhereverTheyStart) {
   }
 }
 
+/// So many places of an ellipse of that width, evenly along it, the first a share of a step on from
+/// its tip.
+std::vector<core::Point3> even_ellipse(double width, int count, double start) {
+  constexpr int kFine = 20000;
+  const auto at = [&](int i) {
+    const double t = 2 * core::kPi * i / kFine;
+    return core::Point3{width * std::cos(t), std::sin(t), 0};
+  };
+  std::vector<double> length{0};
+  for (int i = 1; i <= kFine; ++i) length.push_back(length.back() + distance(at(i - 1), at(i)));
+  std::vector<core::Point3> points;
+  for (int k = 0; k < count; ++k) {
+    const double along = (k + start) / count * length.back();
+    points.push_back(
+        at(static_cast<int>(std::ranges::lower_bound(length, along) - length.begin())));
+  }
+  return points;
+}
+
+// Evenly spaced points are few at the tips: what a vertex turns there is three times what those
+// beside it do, and these three times what the next do.
+TEST(RecogniseEnds, ATipThatPointsComeToMoreAndMoreTurnedIsNoCorner) {
+  EXPECT_EQ(open_starts(even_ellipse(3, 16, 0)), 0);
+  for (const double width : {2.0, 3.0, 4.0})
+    for (const int count : {20, 24, 32, 40})
+      for (const double start : {0.0, 0.2, 0.5, 0.7})
+        EXPECT_EQ(open_starts(even_ellipse(width, count, start)), 0) << width << " " << count;
+}
+
 // Two thin sides and the tail between them, about as high as a step: each of its corners turns by
 // itself.
 TEST(RecogniseEnds, ABluntTailStaysOpen) {
