@@ -12,11 +12,15 @@ using core::Result;
 
 namespace {
 
+bool is_shortest(const FairOptions& options) {
+  return options.pieces > 0 || options.criterion != Criterion::least_variation;
+}
+
 /// What G3 joints do not go with: other solvers make those chains, or change them afterwards.
 Result<void> check_joints(const FairOptions& options) {
   if (options.joints == JointOrder::g2) return {};
   std::string against;
-  if (options.pieces > 0 || options.criterion != Criterion::least_variation)
+  if (is_shortest(options))
     against = "the shortest chain";
   else if (options.max_rate)
     against = "a limit on curvature's rate";
@@ -27,6 +31,21 @@ Result<void> check_joints(const FairOptions& options) {
   if (against.empty()) return {};
   return fail(ErrorCode::bad_input, "G3 joints do not go with " + against, "leave one of them out",
               "joints");
+}
+
+/// What only the calmest chain heeds.
+Result<void> check_shortest(const FairOptions& options) {
+  if (!is_shortest(options)) return {};
+  const core::Interval usual = FairOptions{}.slopes;
+  const auto against = [](const char* what, const char* field) {
+    return fail(ErrorCode::bad_input, fmt::format("{} does not go with the shortest chain", what),
+                "leave one of them out", field);
+  };
+  if (options.max_rate) return against("a limit on curvature's rate", "max_rate");
+  if (options.waves) return against("a number of waves", "waves");
+  if (options.slopes.low != usual.low || options.slopes.high != usual.high)
+    return against("a range of slopes", "slopes");
+  return {};
 }
 
 /// Only a closed line goes on before its start and behind its end.
@@ -64,10 +83,7 @@ Result<void> check(const acquire::KeyLine& line, const FairOptions& options) {
   if (options.pieces < 0)
     return fail(ErrorCode::bad_input, "the number of pieces is negative", "give 1 or more",
                 "pieces");
-  if (options.max_rate && (options.pieces > 0 || options.criterion != Criterion::least_variation))
-    return fail(ErrorCode::bad_input,
-                "a limit on curvature's rate does not go with the shortest chain",
-                "leave one of them out", "max_rate");
+  if (auto sound = check_shortest(options); !sound) return sound;
   if (auto sound = check_joints(options); !sound) return sound;
   for (const std::size_t index : options.must_pass)
     if (index >= line.points.size())

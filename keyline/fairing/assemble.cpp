@@ -15,49 +15,8 @@
 namespace keyline::fairing::detail {
 namespace {
 
+constexpr double kSameSlope = 1e-9;
 constexpr int kSettleRounds = 8;  // Newton steps of a foot: digits double from step to step
-
-/// Parameter of the spline's point nearest to p, within a twentieth of the guess.
-double foot_near(const curve::BSpline2& spline, core::Point2 p, double guess) {
-  double best = guess;
-  double reach = 0.05;
-  while (reach > 1e-9) {
-    double least = HUGE_VAL;
-    const double middle = best;
-    for (int k = -20; k <= 20; ++k) {
-      const double t = std::clamp(middle + reach * k / 20, 0.0, 1.0);
-      const double away = core::distance(evaluate(spline, t), p);
-      if (away >= least) continue;
-      least = away;
-      best = t;
-    }
-    reach /= 10;
-  }
-  return best;
-}
-
-}  // namespace
-
-RegionPoints points_in_region(const std::vector<core::Point2>& points, bool closed,
-                              core::Interval region, const curve::BSpline2& spline) {
-  std::vector<double> at(points.size(), 0);
-  for (std::size_t i = 1; i < points.size(); ++i)
-    at[i] = at[i - 1] + core::distance(points[i - 1], points[i]);
-  RegionPoints found;
-  const double total = at.back() + (closed ? core::distance(points.back(), points.front()) : 0.0);
-  const auto first = std::lower_bound(at.begin(), at.end(), region.low * total);
-  const auto last = std::upper_bound(at.begin(), at.end(), region.high * total);
-  found.first = static_cast<std::size_t>(first - at.begin());
-  found.last = static_cast<std::size_t>(last - at.begin()) - 1;
-  const std::size_t end = points.size() - 1;
-  if (found.first > 0)
-    found.t_first = foot_near(spline, points[found.first], at[found.first] / total);
-  if (found.last < end || closed)
-    found.t_last = foot_near(spline, points[found.last], at[found.last] / total);
-  return found;
-}
-
-namespace {
 
 /// The chain as laid out, in the form the fit takes, without feet.
 FitChain as_fit_chain(const lac::Chain& chain) {
@@ -109,7 +68,7 @@ void add_run(FairResult& result, const RunResult& solved, const Run& run, int cu
     square += place.offset * place.offset;
     deviation[place.piece] = std::max(deviation[place.piece], std::abs(place.offset));
     double& kept = result.offsets[run.index[j]];
-    if (std::abs(place.offset) >= std::abs(kept)) kept = place.offset;
+    if (!(std::abs(place.offset) < std::abs(kept))) kept = place.offset;
   }
   const double rms = std::sqrt(square / static_cast<double>(measured));
   std::vector<FairPiece> pieces =
@@ -124,35 +83,46 @@ void add_run(FairResult& result, const RunResult& solved, const Run& run, int cu
 
 void measure_deviation(FairResult& result) {
   double square = 0;
+  std::size_t measured = 0;
   result.max_deviation = 0;
   for (std::size_t j = 0; j < result.offsets.size(); ++j) {
+    if (std::isnan(result.offsets[j])) continue;
+    ++measured;
     const double d = std::abs(result.offsets[j]);
     square += d * d;
     if (d <= result.max_deviation) continue;
     result.max_deviation = d;
     result.worst_point = j;
   }
-  result.rms_deviation = std::sqrt(square / static_cast<double>(result.offsets.size()));
+  result.rms_deviation = std::sqrt(square / static_cast<double>(measured));
   result.within_tolerance = result.max_deviation <= result.tolerance;
 }
 
 void assemble(FairResult& result, const std::vector<RunResult>& solved,
-              const std::optional<curve::BSpline2>& before,
-              const std::optional<curve::BSpline2>& after) {
-  if (before) result.curves.push_back(*before);
-  for (const RunResult& run : solved) result.curves.push_back(run.chain);
-  if (after) result.curves.push_back(*after);
+              const AnswerMembers& members) {
+  std::vector<int> curve_of;  // of each run
+  const auto add_run = [&] {
+    const std::size_t k = curve_of.size();
+    curve_of.push_back(static_cast<int>(result.curves.size()));
+    result.curves.push_back(solved[k].chain);
+  };
+  for (const auto& kept : members)
+    if (kept)
+      result.curves.push_back(*kept);
+    else
+      add_run();
+  while (curve_of.size() < solved.size()) add_run();
+  for (FairPiece& piece : result.pieces) piece.curve = curve_of[piece.curve];
   result.length = 0;
   for (const FairCurve& c : result.curves)
     result.length += std::visit([](const auto& v) { return arc_length(v); }, c);
   const auto calm = [](const RunResult& run) { return !run.dense.joints.empty(); };
   result.calm_missed =
       std::ranges::none_of(solved, calm) && std::ranges::any_of(solved, &RunResult::calm_missed);
-  result.all_single = !before && !after && std::ranges::all_of(solved, [](const RunResult& run) {
-    return run.exact && run.chain.pieces.size() == 1;
-  });
-  if (before)
-    for (FairPiece& piece : result.pieces) ++piece.curve;
+  result.all_single = result.curves.size() == solved.size() &&
+                      std::ranges::all_of(solved, [](const RunResult& run) {
+                        return run.exact && run.chain.pieces.size() == 1;
+                      });
   std::vector<analysis::CurveView> views;
   for (const FairCurve& c : result.curves)
     views.push_back(std::visit([](const auto& v) { return analysis::view(v); }, c));
@@ -172,6 +142,20 @@ void assemble(FairResult& result, const std::vector<RunResult>& solved,
 
 void note_of_run(FairResult& result, std::size_t k, std::size_t runs, const std::string& text) {
   result.notes.push_back(runs > 1 ? fmt::format("run {}: {}", k, text) : text);
+}
+
+void note_slopes(FairResult& result, core::Interval slopes) {
+  const core::Interval usual = FairOptions{}.slopes;
+  if (slopes.low == usual.low && slopes.high == usual.high) return;
+  const auto other = std::ranges::count_if(result.pieces, [&](const FairPiece& piece) {
+    return std::ranges::any_of(piece.slopes, [&](double slope) {
+      return slope < slopes.low - kSameSlope || slope > slopes.high + kSameSlope;
+    });
+  });
+  if (other > 0)
+    result.notes.push_back(core::counted(static_cast<std::size_t>(other),
+                                         "piece has a slope outside the range asked for",
+                                         "pieces have slopes outside the range asked for"));
 }
 
 void note_run(FairResult& result, const RunResult& run, std::size_t k, std::size_t runs) {

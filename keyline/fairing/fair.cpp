@@ -145,8 +145,11 @@ class Job {
       const std::size_t found = solved_[k].chain.pieces.size();
       if (wanted > 0 && found != wanted)
         note_of_run(k, fmt::format("{} wanted, {} found", core::counted(wanted, "piece"), found));
-      if (const int stay = solved_[k].waves.turns; options_.waves && stay > *options_.waves)
-        note_of_run(k, fmt::format("{} wanted, {} stay: fewer leave the tolerance",
+      if (!options_.waves) continue;
+      const int stay = analysis::comb_figures(lac::curvature_graph(solved_[k].chain)).waves;
+      if (stay > *options_.waves)
+        note_of_run(k, fmt::format("{} wanted, {} stay: none with fewer was found within the "
+                                   "tolerance",
                                    core::counted(std::size_t(*options_.waves), "wave"), stay));
     }
   }
@@ -226,32 +229,20 @@ class Job {
   }
 
   Result<FairResult> run_region() {
-    const core::Interval region = *options_.region;
-    runs_ = detail::smooth_runs(line_, false);
-    detail::pass_through(runs_, options_.must_pass);
-    fit::SplineFitOptions of_whole = detail::fit_of(runs_[0], spline_options());
+    fit::SplineFitOptions of_whole = spline_options();
     of_whole.progress = core::part_of(options_.progress, 0, 0.4);
-    const auto whole = fit::fit_spline(runs_[0].points, runs_[0].weights, of_whole);
-    if (!whole) return std::unexpected(whole.error());
-    result_.spline_bic += whole->bic;
-    const auto range = detail::points_in_region(line_.points, line_.closed, region, whole->curve);
-    if (range.last < range.first + 4)
-      return fail(ErrorCode::bad_input, "the region holds fewer than five points",
-                  "choose a larger region", "region");
-    const curve::BSpline2 inside = subcurve(whole->curve, range.t_first, range.t_last);
-    runs_ = {detail::run_between(line_, range.first, range.last)};
-    detail::pass_through(runs_, options_.must_pass);
+    auto plan = detail::plan_region(line_, options_, of_whole);
+    if (!plan) return std::unexpected(plan.error());
+    result_.spline_bic += plan->bic;
+    runs_ = std::move(plan->runs);
     if (auto sound = detail::bound_runs(runs_, line_, options_, result_.tolerance); !sound)
       return std::unexpected(sound.error());
-    const bool from_start = range.first == 0 && !line_.closed;
-    const bool to_end = range.last + 1 == line_.points.size() && !line_.closed;
-    runs_[0].clamp_start = from_start ? options_.clamp.start : Clamp::g2;
-    runs_[0].clamp_end = to_end ? options_.clamp.end : Clamp::g2;
-    if (auto done = fair_all({inside}); !done) return std::unexpected(done.error());
+    if (auto done = fair_all(plan->splines); !done) return std::unexpected(done.error());
     detail::make_rates_one(result_, solved_, runs_, options_of_runs());
-    detail::place_free_ends(solved_[0], runs_[0], run_options(0));
-    if (range.t_first > 0) kept_before_ = subcurve(whole->curve, 0, range.t_first);
-    if (range.t_last < 1) kept_after_ = subcurve(whole->curve, range.t_last, 1);
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      detail::place_free_ends(solved_[k], runs_[k], run_options(k));
+    result_.notes.push_back(detail::note_of_kept(*plan, runs_.front().inside, result_.tolerance));
+    kept_ = std::move(*plan);
     return finish();
   }
 
@@ -262,7 +253,7 @@ class Job {
     note_outside();
     if (auto kept = limit_rate(); !kept) return std::unexpected(kept.error());
     note_limits();
-    detail::assemble(result_, solved_, kept_before_, kept_after_);
+    detail::assemble(result_, solved_, kept_.members);
     result_.cancelled = options_.progress.stop_requested();
     return std::move(result_);
   }
@@ -295,6 +286,7 @@ class Job {
     result_.smoothness_counts =
         std::ranges::any_of(solved_, [](const detail::RunResult& one) { return one.spring > 0; });
     const auto lacs = [](const detail::RunResult& one) { return !one.dense.joints.empty(); };
+    detail::note_slopes(result_, options_.slopes);
     if (!std::ranges::all_of(solved_, lacs)) return;
     const auto at_tolerance = std::ranges::count_if(
         result_.offsets, [&](double o) { return std::abs(o) > kAlike * result_.tolerance; });
@@ -328,15 +320,19 @@ class Job {
   /// Pieces, offsets and the deviation from the solved runs as they stand.
   void measure_all() {
     result_.pieces.clear();
-    result_.offsets.assign(line_.points.size(), 0);
+    result_.offsets.assign(line_.points.size(), std::nan(""));
     result_.within_tolerance = true;
+    std::vector<double> before = detail::kept_before(kept_.members, solved_.size());
     double start = 0;
     for (std::size_t k = 0; k < solved_.size(); ++k) {
+      start += before[k];
       detail::add_run(result_, solved_[k], runs_[k], static_cast<int>(k), start,
                       asked_.empty() ? std::vector<int>{} : asked_[k]);
       start += lac::arc_length(solved_[k].chain);
     }
     detail::measure_deviation(result_);
+    for (const auto& [index, offset] : kept_.kept_offsets)
+      if (std::isnan(result_.offsets[index])) result_.offsets[index] = offset;
   }
 
   Result<void> reinterpret() {
@@ -370,8 +366,7 @@ class Job {
   std::vector<detail::RunResult> solved_;
   double share_ = 1;                     ///< of the progress that the runs as they are take
   std::vector<std::vector<int>> asked_;  ///< pieces of every run that read as asked; empty: none
-  std::optional<curve::BSpline2> kept_before_;
-  std::optional<curve::BSpline2> kept_after_;
+  detail::RegionPlan kept_;              ///< what stays outside a region
   FairResult result_;
   double size_ = 0;  ///< length of the way through the points
 };

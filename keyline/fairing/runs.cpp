@@ -71,12 +71,29 @@ void pass_through(std::vector<Run>& runs, const std::vector<std::size_t>& must_p
       if (std::ranges::find(must_pass, run.index[k]) != must_pass.end()) run.must_pass.push_back(k);
 }
 
+namespace {
+
+/// An outer end that is to be passed is where the curve ends: it is held there and needs no narrow
+/// band of its own.
+void tie_passed_ends(std::vector<Run>& runs) {
+  const auto tie = [](Run& run, Clamp clamp, std::size_t point, std::optional<core::Point2>& end) {
+    if (clamp == Clamp::none && std::erase(run.must_pass, point) > 0) end = run.points[point];
+  };
+  Run& first = runs.front();
+  Run& last = runs.back();
+  tie(first, first.clamp_start, 0, first.tie_start);
+  tie(last, last.clamp_end, last.points.size() - 1, last.tie_end);
+}
+
+}  // namespace
+
 std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& options) {
   std::vector<Run> runs = smooth_runs(line, options.keep_corners);
   pass_through(runs, options.must_pass);
   if (line.closed) return runs;
   runs.front().clamp_start = options.clamp.start;
   runs.back().clamp_end = options.clamp.end;
+  tie_passed_ends(runs);
   return runs;
 }
 

@@ -103,6 +103,19 @@ TEST(Asked, ALimitOfTheRateDoesNotGoWithTheShortestChain) {
             "max_rate");
 }
 
+TEST(Asked, SlopesAndWavesDoNotGoWithTheShortestChain) {
+  const auto shortest = [](auto set) {
+    return blamed(with([&](auto& o) {
+      o.pieces = 3;
+      set(o);
+    }));
+  };
+  EXPECT_EQ(shortest([](auto& o) { o.slopes = {-3, 3}; }), "");  // as they are unless given
+  EXPECT_EQ(shortest([](auto& o) { o.slopes = {0.5, 3}; }), "slopes");
+  EXPECT_EQ(shortest([](auto& o) { o.slopes = {-3, 2}; }), "slopes");
+  EXPECT_EQ(shortest([](auto& o) { o.waves = 1; }), "waves");
+}
+
 TEST(Asked, JointsOfOneRateSayWhatTheyDoNotGoWith) {
   const auto why = [](auto set) {
     FairOptions options;

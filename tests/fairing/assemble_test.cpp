@@ -130,18 +130,18 @@ TEST(Assemble, KeptPartsStandAroundTheChains) {
   result.pieces.resize(1);
   RunResult run;
   run.chain = {{{10, 0}, 0}, {{-1, 4, 0, 0.5}, {-1, 6, 0.5, 0.5}}, false};
-  assemble(result, {run}, straight(), std::nullopt);
+  assemble(result, {run}, {straight(), {}});
   ASSERT_EQ(result.curves.size(), 2U);
   EXPECT_TRUE(std::holds_alternative<curve::BSpline2>(result.curves[0]));
   EXPECT_EQ(result.pieces[0].curve, 1);
   EXPECT_EQ(result.joints.size(), 2U);  // inside the chain, and between the spline and it
   FairResult alone;
   alone.pieces.resize(1);
-  assemble(alone, {run}, std::nullopt, std::nullopt);
+  assemble(alone, {run}, {});
   EXPECT_EQ(alone.pieces[0].curve, 0);
   EXPECT_EQ(alone.joints.size(), 1U);
   FairResult before;
-  assemble(before, {run, run}, std::nullopt, straight());
+  assemble(before, {run, run}, {{}, {}, straight()});
   EXPECT_EQ(before.curves.size(), 3U);
   EXPECT_TRUE(std::holds_alternative<curve::BSpline2>(before.curves[2]));
   EXPECT_EQ(before.joints.size(), 4U);
@@ -250,19 +250,19 @@ TEST(Assemble, LengthsAddUpAndSeamsOfWholesAreJoints) {
   run.chain = {{{10, 0}, 0}, {{-1, 4, 0, 0.5}, {-1, 6, 0.5, 0.5}}, false};
   FairResult result;
   result.length = 99;
-  assemble(result, {run}, straight(), straight());
+  assemble(result, {run}, {straight(), {}, straight()});
   EXPECT_NEAR(result.length, 30, 1e-9);
   EXPECT_EQ(result.curves.size(), 3U);
   EXPECT_EQ(result.joints.size(), 3U);  // one inside, two between
   FairResult closed;
   closed.closed = true;
-  assemble(closed, {run, run}, std::nullopt, std::nullopt);
+  assemble(closed, {run, run}, {});
   EXPECT_EQ(closed.joints.size(), 4U);  // one inside either, two between
   // Of one chain that is closed its own seam.
   run.chain.closed = true;
   FairResult one;
   one.closed = true;
-  assemble(one, {run}, std::nullopt, std::nullopt);
+  assemble(one, {run}, {});
   EXPECT_EQ(one.joints.size(), 2U);
   EXPECT_EQ(one.joint_rates.g3 + one.joint_rates.turns + one.joint_rates.jumps, 2);
 }
@@ -276,7 +276,7 @@ TEST(Assemble, CalmIsMissedWhereNoRunHasIt) {
   calm.dense.joints.resize(2);
   const auto told = [](const std::vector<RunResult>& runs) {
     FairResult result;
-    assemble(result, runs, std::nullopt, std::nullopt);
+    assemble(result, runs, {});
     return result.calm_missed;
   };
   EXPECT_FALSE(told({other, other}));

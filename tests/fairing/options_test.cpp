@@ -8,6 +8,7 @@
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
 #include "keyline/exchange/points/points_reader.h"
+#include "keyline/numeric/random.h"
 
 #include "truth.h"
 
@@ -62,6 +63,41 @@ TEST(FairOptions, MustPassPasses) {
   const FairResult result = fair(bow(), options).value();
   for (const std::size_t j : options.must_pass)
     EXPECT_LE(std::abs(result.offsets[j]), 0.05 * result.tolerance);
+}
+
+/// Ends that are to be passed hold the curve and cost it nothing else: it is the calmest still.
+TEST(FairOptions, MustPassPassesAtBothEndsOfNoisyPoints) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    numeric::Random random(seed);
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 60; ++i) {
+      const double t = core::kPi * i / 59;
+      points.push_back(
+          {3 * std::cos(t) + 0.004 * random.normal(), std::sin(t) + 0.004 * random.normal()});
+    }
+    FairOptions options;
+    options.must_pass = {0, 59};
+    const FairResult result = fair(testing::line_through(points), options).value();
+    EXPECT_FALSE(result.calm_missed) << seed;
+    EXPECT_LE(core::distance(evaluate(only_chain(result), 0), points.front()), 1e-9) << seed;
+    EXPECT_LE(core::distance(evaluate(only_chain(result), 1), points.back()), 1e-9) << seed;
+  }
+}
+
+/// Through an inflection no slopes but those below 0 pass.
+TEST(FairOptions, SlopesThatCouldNotBeKeptAreTold) {
+  const auto told = [](core::Interval slopes) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i <= 80; ++i) points.push_back({0.1 * i, std::sin(0.1 * i)});
+    FairOptions options;
+    options.slopes = slopes;
+    const FairResult result = fair(testing::line_through(points), options).value();
+    return std::ranges::any_of(result.notes, [](const std::string& note) {
+      return note.find("outside the range asked for") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told({0.5, 2}));
+  EXPECT_FALSE(told({-2, 2}));
 }
 
 TEST(FairOptions, WantedNumberOfPieces) {

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +46,67 @@ TEST(Region, OfAClosedOutlineKeepsTheRest) {
       EXPECT_LE(std::abs(joint.angle), 1e-6) << region.low;
     }
   }
+}
+
+/// Two straights and the corner between them, exactly; the region is a part of the second.
+TEST(Region, CornersBesideItStay) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 50; ++i) points.push_back({0.04 * i, 0});
+  for (int i = 0; i <= 60; ++i) {
+    const double t = i / 60.0;
+    points.push_back({2 + 0.2 * t * t, 2 * t});
+  }
+  FairOptions options;
+  options.region = core::Interval{0.7, 0.95};
+  const FairResult result = fair(testing::line_through(points), options).value();
+  ASSERT_EQ(result.curves.size(), 4U);  // first side, and before, in and behind the region
+  const auto& side = std::get<curve::BSpline2>(result.curves[0]);
+  for (int k = 0; k <= 1000; ++k)
+    EXPECT_LE(std::abs(evaluate(side, k / 1000.0).y), result.tolerance) << k;
+  EXPECT_EQ(evaluate(side, 1), (core::Point2{2, 0}));
+  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9);
+}
+
+/// Of a region with a corner both sides are faired up to its point.
+TEST(Region, MayHoldACorner) {
+  std::vector<core::Point2> points;
+  for (int i = 0; i < 60; ++i) points.push_back({0.04 * i, 0.1 * std::sin(0.04 * i)});
+  const core::Point2 corner{2.4, 0.1 * std::sin(2.4)};
+  for (int i = 0; i <= 60; ++i)
+    points.push_back({corner.x + 0.3 * i / 60, corner.y + 2.0 * i / 60});
+  FairOptions options;
+  options.region = core::Interval{0.2, 0.8};
+  const FairResult result = fair(testing::line_through(points), options).value();
+  ASSERT_EQ(result.curves.size(), 4U);
+  EXPECT_LE(core::distance(evaluate(std::get<lac::Chain>(result.curves[1]), 1), corner), 1e-9);
+  EXPECT_LE(core::distance(evaluate(std::get<lac::Chain>(result.curves[2]), 0), corner), 1e-9);
+  for (const auto& joint : result.joints) EXPECT_LE(joint.gap, 1e-9);
+}
+
+/// The largest and mean deviation are the region's; that of what stays is told, and its points
+/// have their distances too.
+TEST(Region, WhatStaysIsMeasuredByItself) {
+  FairOptions options;
+  options.region = core::Interval{0.25, 0.7};
+  const FairResult result = fair(hood(), options).value();
+  double square = 0;
+  int within = 0, beside = 0;
+  for (std::size_t i = 0; i < result.offsets.size(); ++i) {
+    const double share =
+        (static_cast<double>(i) + 0.5) / static_cast<double>(result.offsets.size());
+    if (share > 0.27 && share < 0.68) {
+      square += result.offsets[i] * result.offsets[i];
+      ++within;
+    } else if (share < 0.23 || share > 0.72) {
+      beside += result.offsets[i] != 0;
+    }
+  }
+  EXPECT_NEAR(result.rms_deviation, std::sqrt(square / within), 0.1 * result.rms_deviation);
+  EXPECT_GT(beside, 70);
+  EXPECT_TRUE(std::ranges::any_of(result.notes, [](const std::string& note) {
+    return note.starts_with("outside the region the points' spline stays");
+  }));
+  EXPECT_GT(result.pieces.front().start, 0.2 * result.length);
 }
 
 /// The spline that stays outside the region passes too.
