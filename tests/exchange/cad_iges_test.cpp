@@ -140,6 +140,75 @@ TEST_F(CadIges, ScaledInstancesAreTold) {
   EXPECT_THAT(scaled.skipped, ElementsAre(HasSubstr("408): scaled instances are not read")));
 }
 
+// 2.2.4.4.9: blanked entities, and the uses of entities; of a part of another that one counts.
+TEST_F(CadIges, WhatIsNotToBeSeenOrBesideTheDrawingIsTold) {
+  const auto told = [this](const std::string& status) {
+    return read({{.parameters = kLine}, {.parameters = kLine, .status = status}}).skipped;
+  };
+  EXPECT_THAT(told("00000000"), IsEmpty());
+  EXPECT_THAT(told("01000000"), ElementsAre("nothing, but not to be seen: 1 entity"));
+  EXPECT_THAT(told("00000100"), ElementsAre("nothing, but annotation: 1 entity"));
+  EXPECT_THAT(told("00000600"), ElementsAre("nothing, but for construction alone: 1 entity"));
+  const Document chain = read({{.parameters = "102,2,3,5", .status = "01000000"},
+                               {.parameters = kLine, .status = "01010000"},
+                               {.parameters = "110,4,3,0,8,0,0", .status = "01010000"}});
+  EXPECT_EQ(chain.paths.size(), 1U);
+  EXPECT_THAT(chain.skipped, ElementsAre("nothing, but not to be seen: 1 entity"));
+}
+
+TEST_F(CadIges, CurvesInParametersOfSurfacesAreNowhereInSpace) {
+  const Document d = read(
+      {{.parameters = kLine, .label = "IN SPACE"}, {.parameters = kLine, .status = "00000500"}});
+  ASSERT_EQ(d.paths.size(), 1U);
+  EXPECT_EQ(d.paths[0].label.name, "IN SPACE");
+  EXPECT_THAT(d.skipped, ElementsAre("1 curve in the parameters of a surface"));
+}
+
+// 4.13: a line from one point through another on and on, and one through both to either side.
+TEST_F(CadIges, LinesWithoutEndAreTold) {
+  const Document d = read(
+      {{.parameters = kLine, .form = 1}, {.parameters = kLine, .form = 2}, {.parameters = kLine}});
+  EXPECT_EQ(d.paths.size(), 3U);
+  EXPECT_THAT(d.skipped, ElementsAre("what lies beyond the two points of 2 lines without end"));
+}
+
+// 4.24: a bilinear square; the last four numbers are its range.
+TEST_F(CadIges, PartsOfSurfacesAreTold) {
+  const auto told = [this](const std::string& range) {
+    const Document d = read({{.parameters = "128,1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,"
+                                            "1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,0.,1.,0.,1.,1.,1.," +
+                                            range}});
+    EXPECT_EQ(d.surfaces.size(), 1U);
+    return d.skipped;
+  };
+  EXPECT_THAT(told("0.,1.,0.,1."), IsEmpty());
+  for (const char* part : {"0.5,1.,0.,1.", "0.,0.5,0.,1.", "0.,1.,0.5,1.", "0.,1.,0.,0.5"})
+    EXPECT_THAT(told(part), ElementsAre("the range of 1 surface: all that the knots span is here"))
+        << part;
+}
+
+// 4.21: a matrix turns, moves or mirrors; six digits are a turn.
+TEST_F(CadIges, MatricesThatScaleAreTold) {
+  const auto told = [this](const std::string& matrix) {
+    return read({{.parameters = "100,0.,1.,2.,4.,2.,1.,5.", .matrix = 3},
+                 {.parameters = "124," + matrix}})
+        .skipped;
+  };
+  EXPECT_THAT(told("0.707107,-0.707107,0.,1.,0.707107,0.707107,0.,0.,0.,0.,1.,0."), IsEmpty());
+  EXPECT_THAT(told("-1.,0.,0.,1.,0.,1.,0.,0.,0.,0.,1.,0."), IsEmpty());
+  for (const char* matrix :
+       {"2.,0.,0.,0.,0.,2.,0.,0.,0.,0.,2.,0.", "1.,0.1,0.,0.,0.,1.,0.,0.,0.,0.,1.,0."})
+    EXPECT_THAT(told(matrix), ElementsAre(HasSubstr("1 matrix that scales or distorts"))) << matrix;
+}
+
+// 2.2.4.3.13: the lengths of the model are so many times those of the thing.
+TEST_F(CadIges, TheScaleOfTheModelIsTold) {
+  std::string text = iges_file({{.parameters = kLine}});
+  text.replace(text.find(",1.,2,"), 6, ",.5,2,");
+  EXPECT_THAT(read_sound("d.iges", text).skipped,
+              ElementsAre("the scale of the model, 0.5: lengths are those of the model"));
+}
+
 // 4.23: a spline stays one, whatever the knots within it are.
 TEST_F(CadIges, SplinesOfSharpTurnsStayWhole) {
   // By hand: two parabolas that meet at (2, 1, 1) in an angle; the last but five numbers are

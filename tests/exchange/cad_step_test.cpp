@@ -20,6 +20,7 @@ using core::Vector3;
 using document::Document;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 class CadStep : public CadTest {
  protected:
@@ -144,6 +145,62 @@ TEST_F(CadStep, UnboundedLinesAreToldAndTheOthersRead) {
                           trimmed_text(22, "#24", 0, 1) + "#24=CIRCLE('',#14,2.);\n");
   EXPECT_EQ(d.paths.size(), 1U);
   EXPECT_THAT(d.skipped, ElementsAre(HasSubstr("an unbounded curve")));
+}
+
+/// Two lines, #21 and #22, the first of them green by #30.
+std::string styled_lines(const std::string& more) {
+  return step_curves("#21,#22", trimmed_text(21, "#23", 0, 5) + trimmed_text(22, "#23", 7, 9) +
+                                    "#23=LINE('',#15,#24);\n#24=VECTOR('',#19,1.);\n"
+                                    "#30=STYLED_ITEM('',(#31),#21);\n"
+                                    "#31=PRESENTATION_STYLE_ASSIGNMENT((#32));\n"
+                                    "#32=CURVE_STYLE('',#33,POSITIVE_LENGTH_MEASURE(0.1),#34);\n"
+                                    "#33=DRAUGHTING_PRE_DEFINED_CURVE_FONT('continuous');\n"
+                                    "#34=DRAUGHTING_PRE_DEFINED_COLOUR('green');\n" +
+                                    more);
+}
+
+const std::string kShown =
+    "#35=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#30),#4);\n";
+
+// ISO 10303-46, invisibility: of a style, of all of a presentation, of a layer.
+TEST_F(CadStep, WhatIsNotToBeSeenIsReadAndTold) {
+  const std::string layer = "#40=PRESENTATION_LAYER_ASSIGNMENT('aids','',(#21,#22));\n";
+  const auto told = [&](const std::string& items) {
+    const Document d =
+        read_sound("d.step", styled_lines(kShown + layer + "#41=INVISIBILITY((" + items + "));\n"));
+    EXPECT_EQ(d.paths.size(), 2U);
+    return d.skipped;
+  };
+  EXPECT_THAT(told("#30"), ElementsAre("nothing, but not to be seen: 1 entity"));
+  EXPECT_THAT(told("#35"), ElementsAre("nothing, but not to be seen: 1 entity"));
+  EXPECT_THAT(told("#40"), ElementsAre("nothing, but not to be seen: layer aids, 2 entities"));
+  EXPECT_THAT(told("#30,#40"), ElementsAre("nothing, but not to be seen: 1 entity",
+                                           "nothing, but not to be seen: layer aids, 2 entities"));
+  EXPECT_THAT(read_sound("d.step", styled_lines(kShown + layer)).skipped, IsEmpty());
+}
+
+// ISO 10303-46, over_riding_styled_item: wherever it stands, and over another one.
+TEST_F(CadStep, AStyleThatGoesOverAnotherCounts) {
+  const auto style = [](int n, const std::string& over, const std::string& color) {
+    const auto id = [n](int k) { return '#' + std::to_string(n + k); };
+    return id(0) + "=OVER_RIDING_STYLED_ITEM('',(" + id(1) + "),#21," + over + ");\n" + id(1) +
+           "=PRESENTATION_STYLE_ASSIGNMENT((" + id(2) + "));\n" + id(2) +
+           "=CURVE_STYLE('',#33,POSITIVE_LENGTH_MEASURE(0.1)," + id(3) + ");\n" + id(3) +
+           "=DRAUGHTING_PRE_DEFINED_COLOUR('" + color + "');\n";
+  };
+  const std::string red = style(50, "#30", "red"), blue = style(60, "#50", "blue");
+  const auto shown = [](const std::string& items) {
+    return "#35=MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(" + items + "),#4);\n";
+  };
+  const auto color = [&](const std::string& more) {
+    const Document d = read_sound("d.step", styled_lines(more));
+    EXPECT_EQ(d.paths.size(), 2U);
+    return d.paths.empty() ? std::string() : d.paths[0].label.color;
+  };
+  EXPECT_EQ(color(kShown), "#00ff00");
+  EXPECT_EQ(color(red + kShown), "#ff0000");
+  EXPECT_EQ(color(red + shown("#30,#50")), "#ff0000");
+  EXPECT_EQ(color(red + blue + shown("#30,#50,#60")), "#0000ff");
 }
 
 }  // namespace

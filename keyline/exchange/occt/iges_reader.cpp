@@ -18,6 +18,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/dxf/dxf_color.h"
+#include "keyline/exchange/occt/iges_beside.h"
 #include "keyline/exchange/occt/iges_model.h"
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
@@ -162,9 +163,12 @@ document::Document read_iges(const std::string& file) {
     return EntityLabel{label_of(own, levels), own->TypeNumber() == kInstance};
   });
   ShapeWalk walk(document, labels);
-  for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
+  const IgesBeside beside(reader);
+  for (int i = 1; i <= reader.NbShapes(); ++i)
+    if (!beside.holds(reader.Shape(i))) walk.add(reader.Shape(i));
   walk.finish();
-  for (const std::string& lost : {odd, missing_iges_end(text)})
+  beside.tell(document.skipped);
+  for (const std::string& lost : {odd, missing_iges_end(text), endless_iges_lines(text)})
     if (!lost.empty()) document.skipped.push_back(lost);
   return document;
 }

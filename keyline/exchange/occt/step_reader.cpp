@@ -19,22 +19,27 @@
 #include <StepVisual_Colour.hxx>
 #include <StepVisual_ColourRgb.hxx>
 #include <StepVisual_LayeredItem.hxx>
+#include <StepVisual_OverRidingStyledItem.hxx>
 #include <StepVisual_PresentationLayerAssignment.hxx>
 #include <StepVisual_PresentationStyleByContext.hxx>
 #include <StepVisual_StyledItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <gp_XYZ.hxx>
 #include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "keyline/exchange/dxf/dxf_color.h"
 #include "keyline/exchange/occt/part_labels.h"
 #include "keyline/exchange/occt/reader.h"
 #include "keyline/exchange/occt/shape_walk.h"
+#include "keyline/exchange/occt/step_beside.h"
 #include "keyline/exchange/occt/step_model.h"
 #include "keyline/exchange/occt/value_check.h"
 
@@ -101,9 +106,17 @@ class Looks {
   Looks(const Handle(XSControl_WorkSession) & session, const Entities& unsound)
       : unsound_(unsound) {
     STEPConstruct_Styles styles(session);
+    std::vector<Style> all;
     if (styles.LoadStyles())
-      for (int i = 1; i <= styles.NbStyles(); ++i) add(styles, styles.Style(i));
+      for (int i = 1; i <= styles.NbStyles(); ++i) all.push_back(styles.Style(i));
     const auto model = session->Model();
+    for (int i = 1; i <= model->NbEntities(); ++i)  // also where no representation has them
+      if (const auto over = Handle(StepVisual_OverRidingStyledItem)::DownCast(model->Value(i));
+          !over.IsNull())
+        all.push_back(over);
+    // One that goes over others is met before them: the first of an item is its own.
+    std::ranges::stable_sort(all, std::greater{}, overridden);
+    for (const Style& style : all) add(styles, style);
     for (int i = 1; i <= model->NbEntities(); ++i) add_layer(model->Value(i));
     for (int i = 1; i <= model->NbEntities(); ++i) add_placement(model->Value(i));
   }
@@ -114,8 +127,20 @@ class Looks {
   }
 
  private:
+  using Style = Handle(StepVisual_StyledItem);
+
+  /// How many styles a style goes over, one over the other.
+  static std::size_t overridden(Style style) {
+    std::set<const Standard_Transient*> met;
+    while (!style.IsNull() && met.insert(style.get()).second) {
+      const auto over = Handle(StepVisual_OverRidingStyledItem)::DownCast(style);
+      style = over.IsNull() ? Style() : over->OverRiddenStyle();
+    }
+    return met.size() - 1;
+  }
+
   /// The placement a style by context speaks of; null for others.
-  static const Standard_Transient* context_of(const Handle(StepVisual_StyledItem) & style) {
+  static const Standard_Transient* context_of(const Style& style) {
     for (int i = 1; i <= style->NbStyles(); ++i)
       if (const auto by =
               Handle(StepVisual_PresentationStyleByContext)::DownCast(style->StylesValue(i));
@@ -124,7 +149,7 @@ class Looks {
     return nullptr;
   }
 
-  void add(STEPConstruct_Styles& styles, const Handle(StepVisual_StyledItem) & style) {
+  void add(STEPConstruct_Styles& styles, const Style& style) {
     Handle(StepVisual_Colour) surface;
     Handle(StepVisual_Colour) border;
     Handle(StepVisual_Colour) curve;
@@ -257,6 +282,7 @@ document::Document read_step(const std::string& file) {
   for (int i = 1; i <= reader.NbShapes(); ++i) walk.add(reader.Shape(i));
   walk.finish();
   note_distorted(document, reader.WS()->Model());
+  tell_step_beside(reader.WS(), document.skipped);
   return document;
 }
 

@@ -299,6 +299,20 @@ std::string missing_iges_end(std::string_view text) {
          " that are not in the file";
 }
 
+std::string endless_iges_lines(std::string_view text) {
+  constexpr std::size_t kWidth = 8, kForm = 4 * kWidth;  // fields of a directory line
+  std::size_t endless = 0;
+  bool second = true;
+  detail::ByteLines lines(text);
+  for (std::string_view line; lines.next(line);) {
+    if (section_of(line) != 'D' || !(second = !second)) continue;
+    const std::string_view form = detail::trimmed(line.substr(kForm, kWidth));
+    endless += detail::trimmed(line.substr(0, kWidth)) == "110" && (form == "1" || form == "2");
+  }
+  if (endless == 0) return {};
+  return "what lies beyond the two points of " + core::counted(endless, "line") + " without end";
+}
+
 std::string odd_iges_line(std::string_view text) {
   detail::ByteLines lines(text);
   for (std::string_view line; lines.next(line);) {

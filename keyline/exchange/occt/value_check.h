@@ -37,4 +37,8 @@ std::string unordered_iges_line(std::string_view text);
 /// one counts (IGES 5.3, 2.2.4.6); empty where it is whole. OCCT reads what is there.
 std::string missing_iges_end(std::string_view text);
 
+/// What is not read of an IGES file's lines without one end or both (IGES 5.3, 4.13: forms 1 and 2
+/// of type 110), whose forms OCCT drops; empty where there are none.
+std::string endless_iges_lines(std::string_view text);
+
 }  // namespace keyline::exchange::occt
