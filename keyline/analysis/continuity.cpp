@@ -10,15 +10,13 @@ namespace keyline::analysis {
 namespace {
 
 struct Jump {
-  double absolute = 0;
-  double relative = 0;
-  bool known = false;
+  std::optional<double> absolute, relative;
 };
 
 Jump jump(double before, double after, double least_size) {
   if (!std::isfinite(before) || !std::isfinite(after)) return {};
   const double size = std::max({std::abs(before), std::abs(after), least_size});
-  return {after - before, std::abs(after - before) / size, true};
+  return {after - before, std::abs(after - before) / size};
 }
 
 }  // namespace
@@ -40,9 +38,9 @@ JointContinuity joint_continuity(const curve::Jet2& end, const curve::Jet2& star
   joint.order = 0;
   if (!(std::abs(joint.angle) <= tolerance.angle)) return joint;
   joint.order = 1;
-  if (!kappa.known || kappa.relative > tolerance.curvature) return joint;
+  if (!kappa.relative || *kappa.relative > tolerance.curvature) return joint;
   joint.order = 2;
-  if (rate.known && rate.relative <= tolerance.curvature_rate) joint.order = 3;
+  if (rate.relative && *rate.relative <= tolerance.curvature_rate) joint.order = 3;
   return joint;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "keyline/analysis/profile.h"
@@ -32,29 +33,36 @@ struct ContinuityTolerance {
 
 /// What happens where one curve ends and the next begins. order is 0…3 for G0…G3, -1 where there
 /// is a gap. angle is the turn from the end tangent to the start tangent in (-pi, pi]; the jumps
-/// are start of the next less end of the one before, absolute, and relative as compared.
+/// are start of the next less end of the one before, absolute, and relative as compared; empty
+/// where one of the two is infinite.
 struct JointContinuity {
   core::Point2 position;
   double gap = 0;
   double angle = 0;
-  double curvature_jump = 0;
-  double curvature_rate_jump = 0;
-  double relative_curvature_jump = 0;
-  double relative_curvature_rate_jump = 0;
+  std::optional<double> curvature_jump = 0;
+  std::optional<double> curvature_rate_jump = 0;
+  std::optional<double> relative_curvature_jump = 0;
+  std::optional<double> relative_curvature_rate_jump = 0;
   int order = -1;
   static constexpr auto describe() {
     return core::fields(
         core::field<&JointContinuity::position>("where the joint is"),
         core::field<&JointContinuity::gap>("between the two ends").in("length"),
         core::field<&JointContinuity::angle>("from one tangent to the next").in("radian"),
-        core::field<&JointContinuity::curvature_jump>("next less before").in("1/length"),
-        core::field<&JointContinuity::curvature_rate_jump>("of the rate").in("1/length^2"),
-        core::field<&JointContinuity::relative_curvature_jump>("relative to the larger curvature"));
+        core::field<&JointContinuity::curvature_jump>(
+            "next less before; null where one is infinite")
+            .in("1/length")
+            .null_if_empty(),
+        core::field<&JointContinuity::curvature_rate_jump>("of the rate, likewise")
+            .in("1/length^2")
+            .null_if_empty(),
+        core::field<&JointContinuity::relative_curvature_jump>("relative to the larger curvature")
+            .null_if_empty());
   }
 };
 
 /// The joint between two ends; scale > 0 as above. Where a curvature is not finite (a cusp) the
-/// order is at most 1 and the jump is reported as 0.
+/// order is at most 1, where a rate is not, at most 2.
 JointContinuity joint_continuity(const curve::Jet2& end, const curve::Jet2& start, double scale,
                                  const ContinuityTolerance& tolerance = {});
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "keyline/document/cusped.h"
 #include "keyline/operations/joint.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/values.h"
@@ -30,16 +31,54 @@ struct ContinuityResult {
   }
 };
 
+/// What a curve is like where it begins and ends.
+struct Ends {
+  curve::Jet2 start, end;
+  bool steep_start = false, steep_end = false;  ///< see is_steep
+  double length = 0;
+};
+
+/// Whether the rate of curvature is infinite at an end of a chain where curvature is 0, which its
+/// jet does not know: curvature^-alpha is linear in arc length.
+bool is_steep(const lac::Piece& piece, double here, double there) {
+  return here == 0 && there != 0 && piece.alpha < -1;
+}
+
+Ends ends_of(const document::PlanarCurve& c) {
+  const document::Path path{{c}, false};
+  const document::CuspedPath cusped(path);
+  Ends ends{jet(cusped, 0), jet(cusped, 1)};
+  ends.length = analysis::ArcLengthTable(analysis::view(cusped)).length();
+  if (const auto* chain = std::get_if<lac::Chain>(&c.value)) {
+    const lac::Piece &first = chain->pieces.front(), &last = chain->pieces.back();
+    ends.steep_start = is_steep(first, first.curvature_start, first.curvature_end);
+    ends.steep_end = is_steep(last, last.curvature_end, last.curvature_start);
+  }
+  return ends;
+}
+
+analysis::JointContinuity joint_between(const Ends& before, const Ends& after,
+                                        const analysis::ContinuityTolerance& tolerance) {
+  auto joint = analysis::joint_continuity(before.end, after.start,
+                                          std::min(before.length, after.length), tolerance);
+  if (before.steep_end || after.steep_start) {
+    joint.curvature_rate_jump = joint.relative_curvature_rate_jump = std::nullopt;
+    joint.order = std::min(joint.order, 2);
+  }
+  return joint;
+}
+
 core::Result<ContinuityResult> run(const ContinuityRequest& request, const Context&) {
-  std::vector<document::PlanarCurve> curves;
+  std::vector<Ends> curves;
   for (const document::Path& path : request.curves)
-    curves.insert(curves.end(), path.curves.begin(), path.curves.end());
+    std::ranges::transform(path.curves, std::back_inserter(curves), ends_of);
   if (curves.size() < 2 && !request.closed)
     return core::fail(core::ErrorCode::bad_input, "a joint needs two curves",
                       "give at least two curves, or \"closed\": true", "curves");
   ContinuityResult result;
   int least = 3;
-  for (const auto& joint : analysis::continuity(curves, request.closed, request.tolerance)) {
+  for (std::size_t i = 0; i < curves.size() && (request.closed || i + 1 < curves.size()); ++i) {
+    const auto joint = joint_between(curves[i], curves[(i + 1) % curves.size()], request.tolerance);
     result.joints.push_back(joint_of(joint));
     least = std::min(least, joint.order);
   }

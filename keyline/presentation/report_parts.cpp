@@ -86,12 +86,15 @@ std::string readings_text(const std::vector<analysis::Interpretation>& interpret
 report::JointRow joint_row(const std::string& between, const analysis::JointContinuity& joint,
                            const std::string& unit) {
   const std::string per = unit.empty() ? "" : "1/" + unit;
+  const auto told = [](const std::optional<double>& jump, const std::string& its_unit) {
+    return jump ? jump_text(*jump, its_unit) : "\u221E";
+  };
   report::JointRow row;
   row.between = between;
   row.gap = jump_text(joint.gap, unit);
   row.angle = short_number(joint.angle * 180 / std::numbers::pi, 2) + "\u00B0";
-  row.curvature_jump = jump_text(joint.curvature_jump, per);
-  row.rate_jump = jump_text(joint.curvature_rate_jump, unit.empty() ? "" : per + "\u00B2");
+  row.curvature_jump = told(joint.curvature_jump, per);
+  row.rate_jump = told(joint.curvature_rate_jump, unit.empty() ? "" : per + "\u00B2");
   row.order = joint.order < 0 ? "gap" : fmt::format("G{}", joint.order);
   return row;
 }

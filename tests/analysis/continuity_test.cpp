@@ -1,6 +1,7 @@
 #include "keyline/analysis/continuity.h"
 
 #include <array>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -66,8 +67,23 @@ TEST(Continuity, JumpsAreMeasured) {
   const auto joint = continuity(std::vector<SpiralCurve>{first, testing::arcs({2}, {1}, start)})[0];
   EXPECT_NEAR(joint.gap, 5e-4, 1e-12);
   EXPECT_NEAR(joint.angle, 0.02, 1e-12);
-  EXPECT_NEAR(joint.curvature_jump, 1, 1e-12);
-  EXPECT_NEAR(joint.curvature_rate_jump, -1, 1e-9);
+  EXPECT_NEAR(joint.curvature_jump.value(), 1, 1e-12);
+  EXPECT_NEAR(joint.curvature_rate_jump.value(), -1, 1e-9);
+}
+
+// No jump is told where one of the two is infinite; nor is it taken for none.
+TEST(Continuity, InfiniteCurvaturesAreNotCompared) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const curve::Jet2 straight{{0, 0}, {1, 0}, {}, {}};
+  const curve::Jet2 cusp{{0, 0}, {1, 0}, {0, infinity}, {0, -infinity}};
+  const auto sharp = joint_continuity(straight, cusp, 1);
+  EXPECT_EQ(sharp.order, 1);
+  EXPECT_FALSE(sharp.curvature_jump || sharp.relative_curvature_jump);
+  EXPECT_FALSE(sharp.curvature_rate_jump || sharp.relative_curvature_rate_jump);
+  const auto steep = joint_continuity(straight, {{0, 0}, {1, 0}, {}, {0, infinity}}, 1);
+  EXPECT_EQ(steep.order, 2);
+  EXPECT_EQ(steep.curvature_jump, 0);
+  EXPECT_FALSE(steep.curvature_rate_jump);
 }
 
 TEST(Continuity, ClosedLoopsHaveOneJointMore) {
@@ -84,7 +100,7 @@ TEST(Continuity, BreakpointsInsideACurve) {
   const auto joints = inner_continuity(view(testing::arcs({1, 2}, {1, 2})));
   ASSERT_EQ(joints.size(), 1u);
   EXPECT_EQ(joints[0].order, 1);
-  EXPECT_NEAR(joints[0].curvature_jump, 1, 1e-9);
+  EXPECT_NEAR(joints[0].curvature_jump.value(), 1, 1e-9);
 }
 
 // Jumps are told beside the larger side, but no less than one over the size, and its square for the
@@ -94,11 +110,11 @@ TEST(Continuity, SmallJumpsAreToldBesideTheSize) {
     return curve::Jet2{{0, 0}, {1, 0}, {0, curvature}, {-curvature * curvature, rate}};
   };
   const auto joint = joint_continuity(along(0, 0.02), along(0.01, 0.03), 2, {});
-  EXPECT_NEAR(joint.relative_curvature_jump, 0.02, 1e-12);
-  EXPECT_NEAR(joint.relative_curvature_rate_jump, 0.04, 1e-12);
+  EXPECT_NEAR(joint.relative_curvature_jump.value(), 0.02, 1e-12);
+  EXPECT_NEAR(joint.relative_curvature_rate_jump.value(), 0.04, 1e-12);
   const auto large = joint_continuity(along(4, 0), along(3, -5), 2, {});
-  EXPECT_NEAR(large.relative_curvature_jump, 0.25, 1e-12);
-  EXPECT_NEAR(large.relative_curvature_rate_jump, 1, 1e-12);
+  EXPECT_NEAR(large.relative_curvature_jump.value(), 0.25, 1e-12);
+  EXPECT_NEAR(large.relative_curvature_rate_jump.value(), 1, 1e-12);
 }
 
 }  // namespace
