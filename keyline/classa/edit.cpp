@@ -88,11 +88,12 @@ bool meets(const Bench& b, const Station& at, double angle) {
   return std::abs(end_angle(at.matrix, b.degree) - angle) < 1e-9;
 }
 
-/// The place nearest to the target among those whose curve keeps the tangent and ends there.
+/// The place nearest to the target among those whose curve keeps the tangent and ends there, within
+/// the end tolerance where one is given.
 core::Result<Station> nearest_station(const Bench& b, const ControlMatrix& target,
                                       const CavOptions& o) {
   const Vector2 chord = b.conditions().chord;
-  const double slack = std::min(b.conditions().end_tolerance / norm(chord), 1.0);
+  const double slack = std::min(o.end_tolerance.value_or(0) / norm(chord), 1.0);
   const double middle = angle_near(b, chord, end_angle(target, b.degree));
   const double off = end_angle(target, b.degree) - middle;
   const double turn = std::clamp(off, -std::asin(slack), std::asin(slack));

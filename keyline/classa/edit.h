@@ -40,7 +40,8 @@ struct EditResult {
 /// A curve of type 1-3 keeps one matrix all the way: alpha and the allowed end move evenly, s and
 /// beta follow so that the end is met. One of type 4 or 5 slides by its control points. Start point
 /// and start tangent (of the direction it is read in, cav.h) stay; the end stays within the end
-/// tolerance. To the minimum and with hold ends_and_tangent this holds for every amount.
+/// tolerance, which for a target is 0 unless given. To the minimum and with hold ends_and_tangent
+/// this holds for every amount.
 ///
 /// Errors: as of cav(); bad_input for an amount outside [0, 1], a target with alpha outside
 /// [0, alpha_max] or s outside the range of s; undrawable where there is no minimum, or no place

@@ -26,6 +26,13 @@ double departure_of(const Bezier& given, const Bezier& edited) {
     return std::min(most, classa::deviation_bound(given, edited, kSharp * most));
 }
 
+/// Of the ends, at most one moves.
+template <class Bezier>
+double end_moved(const Bezier& given, const Bezier& edited) {
+  return std::max(core::distance(given.control.front(), edited.control.front()),
+                  core::distance(given.control.back(), edited.control.back()));
+}
+
 /// A curve of one matrix that ends where it starts is a point, or turns by more than the plane of
 /// alpha and s holds.
 template <class Bezier>
@@ -49,6 +56,7 @@ Result<CurveEditAnswer> edit_in_space(const curve::Bezier3& c, const classa::Edi
   answer.after.value = shown(edited->flat.after);
   answer.target = {edited->flat.target.alpha, edited->flat.target.s};
   answer.departure = departure_of(c, edited->curve);
+  answer.end_moved = end_moved(c, edited->curve);
   return answer;
 }
 
@@ -73,6 +81,7 @@ Result<CurveEditAnswer> run(const CurveEditRequest& request, const Context&) {
   answer.target = {edited->target.alpha, edited->target.s};
   answer.departure =
       subject->planar->deviation + departure_of(subject->planar->curve, edited->curve);
+  answer.end_moved = end_moved(subject->planar->curve, edited->curve);
   answer.path.emplace();
   for (const core::Point2& p : edited->path) answer.path->push_back({p.x, p.y});
   answer.given = *subject->planar;
@@ -105,7 +114,8 @@ Operation curve_edit_operation() {
   return declare<run>(
       {.name = "curve.edit",
        .summary = "Slides a curve to its minimum-energy point or to a given place of the alpha-s "
-                  "plane; start point, start tangent and end stay.",
+                  "plane; start point and start tangent stay, and the end: on the way to the "
+                  "minimum within end_tolerance. A curve may be read from its end.",
        .examples = {R"({"curve":{"type":"bezier","points":[[0,0],[1,2],[0,4],[-2,5]]},
                         "amount":0.5})"}});
 }

@@ -28,7 +28,8 @@ struct CurveEditRequest {
     return core::fields(core::flattened<&Request::curve>(),
                         core::field<&Request::target>(
                             "place of the plane to move to; the minimum-energy point unless given"),
-                        core::field<&Request::hold>("for a target: what stays"),
+                        core::field<&Request::hold>(
+                            "for a target: what stays; an end only within end_tolerance, if given"),
                         core::field<&Request::amount>("0 the given curve to 1 the target")
                             .within(core::from_to(0, 1)));
   }
@@ -40,6 +41,7 @@ struct CurveEditAnswer {
   EvaluationShown after;
   PlaneTarget target;
   double departure = 0;
+  double end_moved = 0;
   std::optional<std::vector<std::array<double, 2>>> path;
 
   std::optional<classa::Approximation> given;  ///< not part of the public form, like `edited`
@@ -53,6 +55,9 @@ struct CurveEditAnswer {
         core::field<&Answer::target>("the place the slide ends at"),
         core::field<&Answer::departure>(
             "bound of the largest distance from the given curve, either way")
+            .in("length"),
+        core::field<&Answer::end_moved>("distance of the end that is let go from where it was; the "
+                                        "start of a curve read backwards")
             .in("length"),
         core::field<&Answer::path>("[alpha, s] from the given place to the target"));
   }

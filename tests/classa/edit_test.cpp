@@ -135,6 +135,20 @@ TEST(Edit, EndsTurnTowardsTheTargetAsFarAsTheyMay) {
   }
 }
 
+// By hand the end moves only by a tolerance that is given, in whichever direction the curve is
+// read.
+TEST(Edit, KeepsTheEndUnlessATargetMayMoveIt) {
+  const curve::Bezier2 given{{{0, 0}, {1, 0.1}, {2, 0.6}, {2.8, 1.5}}, {}};
+  EditOptions options;
+  options.target = ControlMatrix{0.3, 1.2};
+  for (const curve::Bezier2& c : {given, reverse(given)}) {
+    const auto edited = edit(c, options);
+    ASSERT_TRUE(edited) << edited.error().message;
+    EXPECT_LE(core::distance(edited->curve.control.front(), c.control.front()), 1e-12);
+    EXPECT_LE(core::distance(edited->curve.control.back(), c.control.back()), 1e-12);
+  }
+}
+
 TEST(Edit, FreeFormReachesItsMinimum) {
   const curve::Bezier2 s_shaped{{{0, 0}, {1, 0.2}, {2, 0.1}, {3, 1.5}}, {}};
   const auto edited = edit(s_shaped);
