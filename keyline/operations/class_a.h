@@ -159,8 +159,10 @@ struct NearestShown {
   static constexpr auto describe() {
     using Near = NearestShown;
     return core::fields(
-        core::field<&Near::distance>("largest, of control points").in("length"),
-        core::field<&Near::rms>("root mean square").in("length"),
+        core::field<&Near::distance>("largest between the two curves, either way, at samples")
+            .in("length"),
+        core::field<&Near::rms>("root mean square of the distances of the given curve's samples")
+            .in("length"),
         core::field<&Near::alpha>("rotation").in("radian"), core::field<&Near::s>("scale"),
         core::field<&Near::cav>("its value; null where it has none").null_if_empty(),
         core::field<&Near::type>("its type"), core::field<&Near::curve>("the curve"));
