@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -319,6 +320,34 @@ TEST(DxfWriter, ClosingUpIsToldAsDeviation) {
   const auto back = read_dxf(written->content);
   ASSERT_TRUE(back);
   EXPECT_TRUE(back->paths.at(0).path.closed);
+}
+
+// A uniform cubic starts at (P0 + 4 P1 + P2) / 6: its first and last control point say nothing of
+// its ends. Where the last three are the first it is closed.
+TEST(DxfWriter, SplinesAreClosedByTheirEndsNotByTheirControlPoints) {
+  const std::vector<core::Point2> around = {{0, 0}, {4, 0}, {6, 3}, {2, 6}, {0, 0}, {4, 0}, {6, 3}};
+  const std::vector<core::Point2> open = {{0, 0}, {4, 0}, {6, 3}, {2, 6}, {-3, 4}, {1, 1}, {0, 0}};
+  for (const auto& [points, closed] : {std::pair{around, true}, {open, false}})
+    for (const double step : {1.0, 0.1}) {  // tenths: ends meet but for rounding
+      SCOPED_TRACE(closed ? "around" : "open");
+      std::vector<double> knots;
+      for (int i = 0; i < 11; ++i) knots.push_back(i * step);
+      const curve::BSpline2 flat{3, knots, points, {}};
+      curve::BSpline3 space{3, knots, {}, {}};
+      for (const core::Point2 p : flat.control) space.control.push_back({p.x, p.y, p.x * p.y + 1});
+      Document d;
+      d.unit = "mm";
+      d.paths.push_back({{"a", "", ""}, {{{flat}}, closed}, 0});
+      d.space_curves.push_back({{"b", "", ""}, {space}});
+      const auto written = write_dxf(d, {});
+      ASSERT_TRUE(written) << written.error().message;
+      EXPECT_THAT(written->content, HasSubstr(closed ? "\n70\n9\n71\n3" : "\n70\n8\n71\n3"));
+      EXPECT_THAT(written->content, HasSubstr(closed ? "\n70\n1\n71\n3" : "\n70\n0\n71\n3"));
+      const auto back = read_dxf(written->content);
+      ASSERT_TRUE(back) << back.error().message;
+      EXPECT_THAT(back->skipped, IsEmpty());
+      EXPECT_EQ(back->paths.at(0).path.closed, closed);
+    }
 }
 
 }  // namespace

@@ -34,6 +34,13 @@ double degrees(double radians) {
   return d < 0 ? d + 360 : d;
 }
 
+/// Curves in space do not say whether they are closed: those are whose ends differ by rounding.
+bool comes_back(const curve::BSpline3& c) {
+  double size = 0;
+  for (const Point3 p : c.control) size = std::max(size, norm(p - Point3{}));
+  return distance(evaluate(c, 0), evaluate(c, 1)) <= detail::kFlat * size;
+}
+
 class DxfWriter {
  public:
   explicit DxfWriter(const DxfWriteOptions& options) : options_(options) {}
@@ -75,25 +82,32 @@ class DxfWriter {
     if (chain) {
       ChainSpline whole = chain_spline(*parts, share);
       written_.deviation = std::max(written_.deviation, whole.deviation);
-      if (named.path.closed) close_up(whole.curve, share);
-      add_part(named.label, whole.curve);
+      add_spline(named, whole.curve, share);
       return {};
     }
     written_.deviation = std::max(written_.deviation, parts->deviation);
-    for (CadPart& part : parts->parts) {
-      auto* const spline = std::get_if<curve::BSpline2>(&part);
-      if (spline && named.path.closed && parts->parts.size() == 1) close_up(*spline, share);
-      std::visit([&](const auto& p) { add_part(named.label, p); }, part);
+    auto* const alone =
+        parts->parts.size() == 1 ? std::get_if<curve::BSpline2>(&parts->parts[0]) : nullptr;
+    if (alone) {
+      add_spline(named, *alone, share);
+      return {};
     }
+    for (const CadPart& part : parts->parts)
+      std::visit([&](const auto& p) { add_part(named.label, p); }, part);
     return {};
   }
 
-  /// Of a closed path, whose end other formats leave a rounding off its start, the same point.
-  void close_up(curve::BSpline2& c, double share) {
-    const double gap = distance(c.control.front(), c.control.back());
-    if (gap > share) return;
-    c.control.back() = c.control.front();
-    written_.deviation = std::max(written_.deviation, gap);
+  /// The whole of a path. Of a closed one, whose end other formats leave a rounding off its start,
+  /// both are the same point.
+  void add_spline(const document::NamedPath& named, curve::BSpline2 c, double share) {
+    const double gap = distance(evaluate(c, 0), evaluate(c, 1));
+    const bool closed = named.path.closed && gap <= share;
+    if (closed && gap > 0) {
+      c = curve::clamp_ends(c);
+      c.control.back() = c.control.front();
+      written_.deviation = std::max(written_.deviation, gap);
+    }
+    spline(named.label, {c.degree, c.knots, lifted(c.control), c.weights}, true, closed);
   }
 
   void add_part(const Label& label, const CadLine& line) {
@@ -127,7 +141,7 @@ class DxfWriter {
   }
 
   void add_part(const Label& label, const curve::BSpline2& c) {
-    spline(label, c.degree, c.knots, lifted(c.control), c.weights, true);
+    spline(label, {c.degree, c.knots, lifted(c.control), c.weights}, true, false);
   }
 
   void light_polyline(const Label& label, const BulgedPolyline& line) {
@@ -142,19 +156,17 @@ class DxfWriter {
     end(label);
   }
 
-  void spline(const Label& label, int degree, const std::vector<double>& knots,
-              const std::vector<Point3>& control, const std::vector<double>& weights, bool planar) {
-    const bool closed = control.front() == control.back();
+  void spline(const Label& label, const curve::BSpline3& c, bool planar, bool closed) {
     start("SPLINE", label, "AcDbSpline");
     if (planar) body_.point(210, {0, 0, 1});
-    body_.whole(70, (closed ? 1 : 0) + (weights.empty() ? 0 : 4) + (planar ? 8 : 0));
-    body_.whole(71, degree);
-    body_.whole(72, static_cast<long>(knots.size()));
-    body_.whole(73, static_cast<long>(control.size()));
+    body_.whole(70, (closed ? 1 : 0) + (c.weights.empty() ? 0 : 4) + (planar ? 8 : 0));
+    body_.whole(71, c.degree);
+    body_.whole(72, static_cast<long>(c.knots.size()));
+    body_.whole(73, static_cast<long>(c.control.size()));
     body_.whole(74, 0);
-    for (const double knot : knots) body_.real(40, knot);
-    for (const double weight : weights) body_.real(41, weight);
-    for (const Point3 p : control) body_.point(10, p);
+    for (const double knot : c.knots) body_.real(40, knot);
+    for (const double weight : c.weights) body_.real(41, weight);
+    for (const Point3 p : c.control) body_.point(10, p);
     end(label);
   }
 
@@ -162,19 +174,20 @@ class DxfWriter {
     const auto& value = named.curve.value;
     if (const auto* line = std::get_if<curve::Polyline3>(&value)) return add(named.label, *line);
     if (const auto* c = std::get_if<curve::BSpline3>(&value))
-      return spline(named.label, c->degree, c->knots, c->control, c->weights, false);
+      return spline(named.label, *c, false, comes_back(*c));
     if (const auto* c = std::get_if<curve::Bezier3>(&value)) return add(named.label, *c);
     const auto quintics =
         lac::approximate_by_quintics(std::get<lac::SpaceChain>(value), options_.tolerance);
     written_.deviation = std::max(written_.deviation, quintics.deviation);
     const auto whole = curve::to_bspline(quintics.pieces, 0).value();
-    spline(named.label, whole.degree, whole.knots, whole.control, {}, false);
+    spline(named.label, whole, false, comes_back(whole));
   }
 
   void add(const Label& label, const curve::Bezier3& c) {
     std::vector<double> knots(2 * c.control.size(), 0);
     std::fill(knots.begin() + static_cast<std::ptrdiff_t>(c.control.size()), knots.end(), 1);
-    spline(label, degree(c), knots, c.control, c.weights, false);
+    const curve::BSpline3 whole{degree(c), knots, c.control, c.weights};
+    spline(label, whole, false, comes_back(whole));
   }
 
   void add(const Label& label, const curve::Polyline3& line) {
