@@ -1,4 +1,6 @@
+#include <chrono>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/exchange/dxf/dxf_names.h"
 #include "keyline/exchange/dxf/dxf_reader.h"
 #include "keyline/exchange/dxf/dxf_shape.h"
 #include "keyline/exchange/dxf/dxf_writer.h"
@@ -19,6 +22,7 @@ namespace {
 using core::Point2;
 using document::Document;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A drawing of one block "b", which is a line from its base (1, 2) by (3, 0), and what inserts it.
 Document inserted(const std::string& insert) {
@@ -28,7 +32,7 @@ Document inserted(const std::string& insert) {
       insert + " 0 ENDSEC 0 EOF");
   std::string text;
   for (std::string word; words >> word;) text += word + "\n";
-  return read_dxf(text).value_or(Document{});
+  return read_dxf(text).value();
 }
 
 std::vector<Point2> starts(const Document& d) {
@@ -101,6 +105,16 @@ TEST(DxfInsert, BlocksThatNothingInsertsAreTold) {
       block("hub", kLine + kLine) + block("wheel", "0 INSERT 8 0 2 hub 10 0 20 0");
   EXPECT_EQ(told(nested), "3 entities of 2 blocks that nothing inserts: hub, wheel");
   EXPECT_EQ(told(nested, "0 INSERT 8 0 2 wheel 10 0 20 0"), "nothing");
+  // A dimension shows its block, and what stands in that; so does an insert on a layout.
+  const std::string arrow =
+      block("_ArchTick", kLine) + block("*D1", "0 INSERT 8 0 2 _archtick 10 0 20 0");
+  EXPECT_EQ(told(arrow), "2 entities of 2 blocks that nothing inserts: *D1, _ArchTick");
+  EXPECT_THAT(told(arrow, "0 DIMENSION 8 0 2 *D1 10 0 20 0"), Not(HasSubstr("inserts")));
+  EXPECT_THAT(told(block("Title", kLine), "0 INSERT 8 0 67 1 2 TITLE 10 0 20 0"),
+              Not(HasSubstr("inserts")));
+  EXPECT_THAT(
+      told(block("Title", kLine) + block("*Paper_Space0", "0 INSERT 8 0 2 TITLE 10 0 20 0")),
+      Not(HasSubstr("inserts")));
   EXPECT_EQ(told(block("a", kLine) + block("b", kLine) + block("c", kLine) + block("d", kLine)),
             "4 entities of 4 blocks that nothing inserts: a, b, c and others");
   // The picture of a dimension, which is told by its type.
@@ -247,6 +261,28 @@ TEST(DxfGroups, OfAnArcAndACircle) {
   EXPECT_EQ(number(40), 2);
   EXPECT_NEAR(number(50), 0, 1e-12);
   EXPECT_NEAR(number(51), 90, 1e-12);
+}
+
+// Layers that differ in letter case alone, which a DXF does not tell apart: numbered, each once.
+TEST(DxfNames, ThousandsOfLayersOfOneNameTakeNoTime) {
+  constexpr unsigned kLayers = 8'192;
+  Document d;
+  for (unsigned bits = 0; bits < kLayers; ++bits) {
+    std::string layer(13, 'a');
+    for (unsigned k = 0; k < layer.size(); ++k)
+      if ((bits >> k & 1U) != 0) layer[k] = 'A';
+    d.paths.push_back({{"", layer, ""}, {{{curve::Polyline2{{{0, 0}, {1, 2}}}}}, false}});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto layers = detail::dxf_layers(d);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));  // else 20 and more
+  ASSERT_EQ(layers.size(), kLayers + 2U);
+  EXPECT_EQ(layers.at("aaaaaaaaaaaaa"), "aaaaaaaaaaaaa");
+  std::set<std::string> names;
+  for (const auto& [layer, name] : layers)
+    if (layer.size() == 13) names.insert(name.substr(13));
+  EXPECT_EQ(names.size(), kLayers);
+  EXPECT_TRUE(names.contains("_" + std::to_string(kLayers)));
 }
 
 }  // namespace

@@ -76,6 +76,40 @@ TEST(PointsSides, KeepWhatTablesDo) {
   EXPECT_EQ(names_of(curves_of("x,yu,yl\n0,1,2\n1,1,2\n", asked)), ":2 ");
 }
 
+std::string why(const std::string& text) {
+  std::istringstream in(text);
+  const auto read = read_points(in, "data.csv");
+  return read ? "" : read.error().message;
+}
+
+// A micrometre beside a millimetre is a second unit, whether documents know it or not.
+TEST(PointsUnits, OneThatIsNotKnownBesideAKnownOneIsRefused) {
+  const std::string why_two = "the header gives the coordinates two units, mm and um";
+  for (const char* header : {"x [mm],z [um]", "z [um],x [mm]", "x,z\nmm,um", "x,z\num,mm",
+                             "x,z\n[mm],[um]", "x,z\n(mm),(um)", "x,z\n\"mm\",\"um\""})
+    EXPECT_EQ(why(std::string(header) + "\n0,1000\n1,2000\n"), why_two) << header;
+  for (const char* header : {"x,y,t\nmm,mm,s", "x,y,z\nmm,mm,-", "x,y,name\nmm,mm,text"})
+    EXPECT_EQ(why(std::string(header) + "\n0,1,2\n1,2,3\n"), "") << header;
+  const auto round = curves_of("x (mm),z (um)\n0,1000\n1,2000\n");
+  EXPECT_EQ(round.at(0).left_out,
+            std::vector<std::string>{"line 1: (um) behind the name of column 2, which is none of "
+                                     "mm, cm, m, km, in, ft, pt, px"});
+}
+
+// In round brackets other words may stand: they are called no unit, and once.
+TEST(PointsUnits, AWordInRoundBracketsIsToldOnceAsItStands) {
+  EXPECT_EQ(curves_of("x (east),y (east)\n0,1\n1,2\n").at(0).left_out,
+            std::vector<std::string>{"line 1: (east) behind the name of column 1, which is none of "
+                                     "mm, cm, m, km, in, ft, pt, px"});
+}
+
+// "in" is a unit, or the name of a curve whose numbers have decimal commas.
+TEST(PointsUnits, ARowOfNumbersIsNoneOfUnits) {
+  const auto curves = curves_of("id;x;y\nin;1,5;2,5\nin;2,5;3\nin;3,5;3\n");
+  ASSERT_EQ(names_of(curves), "in:3 ");
+  EXPECT_EQ(curves[0].points[0], (Point3{1.5, 2.5, 0}));
+}
+
 // y with a band about it, prices, words of a title: no sides.
 TEST(PointsSides, AreNotGuessed) {
   EXPECT_EQ(names_of(curves_of("x,y,y_upper,y_lower\n0,1,2,0\n1,1,2,0\n")), ":2 ");

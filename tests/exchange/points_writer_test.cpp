@@ -118,5 +118,19 @@ TEST(ReadLattice, TellsWhatIsWrong) {
   }
 }
 
+TEST(WriteCsv, NamesWithLineBreaksAreTold) {
+  const auto notes = [](const std::string& name) {
+    document::Document d;
+    for (const std::string& one : {name, std::string("b")})
+      d.paths.push_back({{one, "", ""}, {{{curve::Polyline2{{{0, 0}, {1, 2}, {3, 1}}}}}, false}});
+    return write_csv(d, 10).value().notes;
+  };
+  EXPECT_EQ(notes("left side"), std::vector<std::string>{});
+  for (const char* name : {"left\nside", "left\tside"})
+    EXPECT_EQ(notes(name), std::vector<std::string>{
+                               "names of curves have blanks in the table for their line breaks and "
+                               "tabs"});
+}
+
 }  // namespace
 }  // namespace keyline::exchange

@@ -44,11 +44,11 @@ TEST(Split, AnEndMarkPartsNoNumber) {
   EXPECT_FALSE(parse_number(fields.back(), spaces));
 }
 
-// The seven errors of ECMA-376 part 1, 18.17.3, and two in German.
+// The seven errors of ECMA-376 part 1, 18.17.3, two in German, and #N/A in Spanish and Danish.
 TEST(ParseNumber, ErrorsOfSpreadsheetsAreMissingValues) {
   const TableStyle style{';', true};
-  for (const std::string error :
-       {"#NULL!", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!", "#N/A", "#WERT!", "#NV"}) {
+  for (const std::string error : {"#NULL!", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!",
+                                  "#N/A", "#WERT!", "#NV", "#N/D", "#I/T"}) {
     ASSERT_TRUE(parse_number(error, style)) << error;
     EXPECT_TRUE(std::isnan(*parse_number("\"" + error + "\"", style))) << error;
     for (const char* rest : {";1,5", "; 1,5", "\t2", " 0.5", ",-1", " ;1", ";", " #N/A"})

@@ -28,12 +28,32 @@ void DxfBlocks::take_other(const DxfEntity& entity) {
     shown_.insert(lower_case(text(entity.tags, 2)));
 }
 
+void DxfBlocks::take_of_paper(const DxfEntity& insert) {
+  shown_.insert(lower_case(text(insert.tags, 2)));
+}
+
+/// What is shown beside the curves, with the blocks that stand in it.
+std::set<std::string> DxfBlocks::all_shown() const {
+  std::set<std::string> shown = shown_;
+  std::vector<std::string> open(shown.begin(), shown.end());
+  while (!open.empty()) {
+    const auto block = blocks_.find(open.back());
+    open.pop_back();
+    if (block == blocks_.end()) continue;
+    for (const DxfItem& item : block->second.items)
+      if (!item.block.empty() && shown.insert(lower_case(item.block)).second)
+        open.push_back(lower_case(item.block));
+  }
+  return shown;
+}
+
 void DxfBlocks::tell(std::vector<std::string>& lines) const {
   constexpr std::size_t kNamed = 3;
+  const std::set<std::string> shown = all_shown();
   std::size_t blocks = 0, entities = 0;
   std::string names;
   for (const auto& [key, block] : blocks_) {
-    if (block.placed || block.items.empty() || shown_.contains(key)) continue;
+    if (block.placed || block.items.empty() || shown.contains(key)) continue;
     entities += block.items.size();
     if (++blocks <= kNamed) names += (blocks > 1 ? ", " : "") + block.name;
   }

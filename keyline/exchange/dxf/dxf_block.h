@@ -44,10 +44,14 @@ class DxfBlocks {
   DxfBlock* find(const std::string& name);
   /// An entity that is no curve: a dimension or table shows the block that it names.
   void take_other(const DxfEntity& entity);
+  /// An insert on a layout, which is not read, shows its block there.
+  void take_of_paper(const DxfEntity& insert);
   /// What stands in blocks that nothing shows.
   void tell(std::vector<std::string>& lines) const;
 
  private:
+  std::set<std::string> all_shown() const;
+
   std::map<std::string, DxfBlock> blocks_;
   std::set<std::string> shown_;
 };

@@ -15,13 +15,27 @@ namespace {
 /// As a reader finds it.
 std::string read_back(const std::string& written) { return text_of({.text = written}); }
 
-/// The name, or the first of "name_2", "name_3" … that is not taken.
-std::string taken(std::set<std::string>& in_use, const std::string& name) {
-  std::string free = name;
-  for (int number = 2; !in_use.insert(lower_case(free)).second; ++number)
-    free = name + '_' + std::to_string(number);
-  return free;
-}
+/// Names of one table.
+class Names {
+ public:
+  explicit Names(const char* first) : in_use_{first} {}
+
+  bool has(const std::string& name) const { return in_use_.contains(lower_case(name)); }
+
+  /// The name, or the first of "name_2", "name_3" … that is not taken.
+  std::string take(const std::string& name) {
+    if (in_use_.insert(lower_case(name)).second) return name;
+    int& number = last_.try_emplace(lower_case(name), 1).first->second;
+    std::string free;
+    do free = name + '_' + std::to_string(++number);
+    while (!in_use_.insert(lower_case(free)).second);
+    return free;
+  }
+
+ private:
+  std::set<std::string> in_use_;
+  std::map<std::string, int> last_;  ///< number behind a name
+};
 
 using Renamed = std::vector<std::pair<std::string, std::string>>;
 
@@ -40,17 +54,17 @@ void tell(std::vector<std::string>& notes, const Renamed& renamed, const char* o
 
 std::map<std::string, std::string> dxf_layers(const document::Document& document) {
   std::map<std::string, std::string> layers{{"", "0"}, {"0", "0"}};
-  std::set<std::string> in_use{"0"};
+  Names names("0");
   std::vector<std::string> others;
   for (const document::Label& label : labels(document)) {
     if (layers.contains(label.layer)) continue;
     const std::string name = dxf_name(label.layer);
-    const bool fits = read_back(name) == label.layer && !in_use.contains(lower_case(name));
+    const bool fits = read_back(name) == label.layer && !names.has(name);
     if (!fits) others.push_back(label.layer);
-    if (fits) layers.emplace(label.layer, taken(in_use, name));
+    if (fits) layers.emplace(label.layer, names.take(name));
   }
   for (const std::string& layer : others)
-    if (!layers.contains(layer)) layers.emplace(layer, taken(in_use, dxf_name(layer)));
+    if (!layers.contains(layer)) layers.emplace(layer, names.take(dxf_name(layer)));
   return layers;
 }
 

@@ -195,8 +195,10 @@ class DxfReader {
       blocks_.take_other(entity);
       return beside_.take_other(entity);
     }
-    if (block_ ? block_->paper : detail::integer(entity.tags, 67) == 1)
+    if (block_ ? block_->paper : detail::integer(entity.tags, 67) == 1) {
+      if (insert) blocks_.take_of_paper(entity);
       return beside_.take_of_paper();
+    }
     if (!is_readable(entity)) return;
     DxfItem item = labelled(entity);
     if (insert) {

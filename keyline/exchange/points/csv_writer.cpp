@@ -161,7 +161,9 @@ double add_lifted(std::string& text, const std::string& id, const document::Path
 /// What tells the curves of a table apart: their names, numbered where one stands twice.
 class Ids {
  public:
-  std::string next(const std::string& name) {
+  std::string next(const std::string& given) {
+    const std::string name = core::on_one_line(given);
+    parted_ = parted_ || name != given;
     std::string id = name;
     for (int number = 2; !used_.insert(id).second; ++number) {
       again_ = true;
@@ -169,15 +171,20 @@ class Ids {
     }
     return id;
   }
-  bool again() const { return again_; }
+
+  void tell(std::vector<std::string>& notes) const {
+    if (again_)
+      notes.emplace_back(
+          "curves of one name are numbered in the table, as in \"wing#2\"; else they were one");
+    if (parted_)
+      notes.emplace_back("names of curves have blanks in the table for their line breaks and tabs");
+  }
 
  private:
   std::set<std::string> used_;
   bool again_ = false;
+  bool parted_ = false;
 };
-
-constexpr const char* kNumbered =
-    "curves of one name are numbered in the table, as in \"wing#2\"; else they were one";
 
 }  // namespace
 
@@ -186,7 +193,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
   const bool several = document.paths.size() + document.space_curves.size() > 1;
   Ids ids;
   const auto id = [&](const document::Label& label) {
-    return several ? field(ids.next(core::on_one_line(label.name))) + ',' : std::string();
+    return several ? field(ids.next(label.name)) + ',' : std::string();
   };
   if (document.paths.empty() && document.space_curves.empty())
     return core::fail(core::ErrorCode::bad_input, "there is no curve to write as points",
@@ -202,7 +209,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
       take(add_lifted(text, id(named.label), named.path, samples));
     for (const auto& named : document.space_curves)
       take(add_space(text, id(named.label), named.curve, samples));
-    if (ids.again()) written.notes.emplace_back(kNumbered);
+    ids.tell(written.notes);
     return written;
   }
   text = several ? "id,x,y,arc_length,curvature\n" : "x,y,arc_length,curvature\n";
@@ -213,7 +220,7 @@ core::Result<Written> write_csv(const document::Document& document, int samples)
     else
       take(add_path(text, id(named.label), named.path, samples));
   }
-  if (ids.again()) written.notes.emplace_back(kNumbered);
+  ids.tell(written.notes);
   return written;
 }
 

@@ -102,24 +102,50 @@ bool take_header(PointsHead& head, const PointsOptions& options, std::string_vie
   return false;
 }
 
+/// What stands where a unit belongs, without its brackets; empty where it says that there is none.
+std::string unknown_unit(std::string_view cell) {
+  std::string text(cell);
+  std::erase_if(text, [](char c) { return std::string_view("[]()\"").contains(c); });
+  const std::string_view unit = trimmed(text);
+  return std::string(unit == "-" || unit == "1" ? std::string_view{} : unit);
+}
+
 /// A second line of a header, of units alone: "mm,mm", "[m];[m];-".
 bool take_unit_row(PointsHead& head, std::string_view text, int number) {
   if (head.names.empty()) return false;
   const Fields fields = split(text, {head.separator, false});
   if (fields.size() < 2 || fields.size() > head.names.size()) return false;
+  const auto is_number = [&](std::string_view field) {  // with either fraction
+    return !field.empty() && (parse_number(field, {head.separator, false}) ||
+                              parse_number(field, {head.separator, true}));
+  };
+  if (std::ranges::any_of(fields, is_number)) return false;
   std::vector<HeaderUnit> units;
-  for (const std::string_view field : fields) {
-    if (parse_number(field, head.style) && !field.empty()) return false;
-    units.push_back(unit_alone(field));
-  }
-  const auto says = [](const HeaderUnit& u) {
-    return !u.known.empty() || (!u.unknown.empty() && !u.round);
+  for (const std::string_view field : fields) units.push_back(unit_alone(field));
+  const auto is_known = [](const HeaderUnit& u) { return !u.known.empty(); };
+  const auto says = [&](const HeaderUnit& u) {
+    return is_known(u) || (!u.unknown.empty() && !u.round);
   };
   if (std::ranges::none_of(units, says)) return false;
-  for (std::size_t i = 0; i < units.size(); ++i)
+  // beside a unit that is known other words are units, too, but in a sentence of them
+  const bool all_are_units = std::ranges::any_of(units, is_known);
+  const bool others = std::ranges::any_of(fields, [](std::string_view field) {
+    return unit_alone(field).known.empty() && !unknown_unit(field).empty();
+  });
+  if (all_are_units && others && !unit_said(text).empty()) return false;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    if (all_are_units && !is_known(units[i])) units[i] = {{}, unknown_unit(fields[i]), false};
     if (says(units[i])) head.units[i] = units[i];
+  }
   head.line = number;
   return true;
+}
+
+core::Failure two_units(const std::string& one, const std::string& other,
+                        const std::string& place) {
+  return {ErrorCode::bad_input,
+          "the header gives the coordinates two units, " + one + " and " + shortened(other),
+          "give all coordinates in one", place};
 }
 
 /// Whether a row below a header of so many names has two fields for each number and no fraction:
@@ -259,20 +285,26 @@ std::vector<std::string> columns_beside(const PointsHead& head, const PointsColu
 core::Result<std::string> unit_below(const PointsHead& head, const PointsColumns& columns,
                                      const std::string& place, std::vector<std::string>& left_out) {
   std::string unit;
+  std::string other;  // what can be nothing but a unit, and is none of documents
+  std::vector<std::string> told;
   for (const int column : {columns.x, columns.y, columns.z, columns.x2, columns.y2}) {
     if (column < 0 || static_cast<std::size_t>(column) >= head.units.size()) continue;
     const auto& [known, unknown, round] = head.units[static_cast<std::size_t>(column)];
     const bool side = round && head.sides;  // every word of the cell has been understood
-    if (!unknown.empty() && unit.empty() && !side)
-      left_out.push_back("line " + std::to_string(head.line) + ": the unit " + shortened(unknown) +
+    if (!unknown.empty() && !side && std::ranges::find(told, unknown) == told.end()) {
+      told.push_back(unknown);
+      const std::string cell = round ? "(" + shortened(unknown) + ") behind the name of column " +
+                                           std::to_string(column + 1)
+                                     : "the unit " + shortened(unknown);
+      left_out.push_back("line " + std::to_string(head.line) + ": " + cell +
                          ", which is none of mm, cm, m, km, in, ft, pt, px");
-    if (known.empty()) continue;
-    if (!unit.empty() && unit != known)
-      return core::fail(ErrorCode::bad_input,
-                        "the header gives the coordinates two units, " + unit + " and " + known,
-                        "give all coordinates in one", place);
-    unit = known;
+    }
+    if (!round && other.empty()) other = unknown;
+    if (!unit.empty() && !known.empty() && unit != known)
+      return std::unexpected(two_units(unit, known, place));
+    if (!known.empty()) unit = known;
   }
+  if (!unit.empty() && !other.empty()) return std::unexpected(two_units(unit, other, place));
   return unit.empty() ? head.said_unit : unit;
 }
 

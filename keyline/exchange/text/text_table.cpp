@@ -14,10 +14,13 @@ namespace keyline::exchange::detail {
 namespace {
 
 /// What spreadsheets show where a cell has no value: "#N/A", "#DIV/0!", "#VALUE!", "#NAME?"
-/// (ECMA-376 part 1, 18.17.3), or that in other languages ("#NV", "#WERT!").
+/// (ECMA-376 part 1, 18.17.3), or that in other languages ("#NV", "#N/D", "#WERT!").
 bool is_error_value(std::string_view field) {
   if (field.size() < 3 || field[0] != '#') return false;
-  if (field == "#N/A" || field == "#NV") return true;
+  const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+  if (field.size() == 4 && field[2] == '/' && is_capital(field[1]) && is_capital(field[3]))
+    return true;
+  if (field == "#NV") return true;
   const auto is_other = [](char c) { return (c >= 'a' && c <= 'z') || c == ' ' || c == '#'; };
   return (field.ends_with('!') || field.ends_with('?')) &&
          std::none_of(field.begin() + 1, field.end(), is_other);
