@@ -75,12 +75,25 @@ TEST(SvgDocument, OfAnEditedDrawingTheNamesAndLooksCount) {
     ASSERT_EQ(d.paths.size(), 3U);
     EXPECT_EQ(d.paths[0].label, c.roof);
     EXPECT_DOUBLE_EQ(d.paths[0].stroke_width, c.width);
-    EXPECT_EQ(d.paths[1].label, (document::Label{"sill", "sill", "#0b5394"}));
-    EXPECT_EQ(d.paths[2].label.name, "door");
+    EXPECT_EQ(d.paths[1].label, chains().paths[1].label);
+    EXPECT_EQ(d.paths[1].stroke_width, 0);
+    EXPECT_EQ(d.paths[2].label, (document::Label{"door", c.roof.layer, ""}));
+    EXPECT_EQ(d.paths[2].stroke_width, 0);
     for (const document::NamedPath& named : d.paths) EXPECT_TRUE(is_exact(named));
     EXPECT_EQ(d.space_curves.size(), 1U);
     EXPECT_TRUE(d.skipped.empty());
   }
+}
+
+// As it was written before the metadata told the names and looks of the drawing.
+TEST(SvgDocument, OfADrawingThatDoesNotTellItsLabelsThoseOfTheDocumentCount) {
+  std::string svg = drawn(chains());
+  const std::string member = "&quot;labels&quot;:&quot;";
+  const std::size_t at = svg.find(member);
+  ASSERT_NE(at, std::string::npos);
+  const std::string end = "&quot;,";
+  svg.erase(at, svg.find(end, at + member.size()) + end.size() - at);
+  EXPECT_EQ(to_json(read(svg)).dump(), to_json(chains()).dump());
 }
 
 TEST(SvgDocument, WidthsAndPageComeInTheUnitOfTheDocument) {
@@ -96,6 +109,7 @@ TEST(SvgDocument, WidthsAndPageComeInTheUnitOfTheDocument) {
   const Document wide = read(edited(svg, "stroke-width=\"0.25\"", "stroke-width=\"3\""));
   EXPECT_EQ(wide.unit, "m");
   EXPECT_DOUBLE_EQ(wide.paths.at(0).stroke_width, 3);
+  EXPECT_EQ(wide.paths.at(1).stroke_width, 0);
 }
 
 TEST(SvgDocument, WhatOthersPutBesideTheCurvesIsTold) {

@@ -1,7 +1,9 @@
 #include "keyline/exchange/svg/svg_document.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -78,30 +80,88 @@ std::string labels_fingerprint(const SvgContents& svg) {
 }
 
 /// Whether metadata stand for the drawing as it is now, in one respect; true where they say nothing
-/// of the drawing.
+/// of it.
 bool is_current(const json& metadata, const char* member, const std::string& now) {
   if (!metadata.is_object()) return false;
   const auto stated = metadata.find(member);
-  return stated == metadata.end() ? !metadata.contains(kDrawing) : *stated == now;
+  return stated == metadata.end() || *stated == now;
 }
 
 document::Label label_of(const SvgCurve& curve) { return {curve.name, curve.layer, curve.color}; }
 
-/// Gives the paths of a document the names and looks of the elements that its drawing shows them
-/// as. False where there are not as many.
-bool take_labels(Document& document, const SvgContents& svg, double scale) {
-  std::vector<const SvgCurve*> elements;
+using Elements = std::vector<const SvgCurve*>;
+
+/// The first curve of every element.
+Elements elements_of(const SvgContents& svg) {
+  Elements elements;
   std::size_t last = 0;
   for (const SvgCurve& curve : svg.curves) {
     if (curve.subpath == 1 || curve.subpath <= last) elements.push_back(&curve);
     last = curve.subpath;
   }
-  if (elements.size() != document.paths.size()) return false;
+  return elements;
+}
+
+/// How the writer would have drawn a document whose elements are those, with that page, in the unit
+/// of the drawing.
+Result<SvgContents> drawn_again(const Document& document, const Elements& elements,
+                                const SvgContents& svg, double scale,
+                                const std::optional<curve::Box2>& page) {
+  std::vector<SvgLayer> layers;
   auto element = elements.begin();
+  for (const DrawnLayer& drawn : drawn_layers(document)) {
+    SvgLayer& layer = layers.emplace_back(SvgLayer{.name = drawn.name});
+    for (const std::size_t i : drawn.paths) {
+      const document::NamedPath& named = document.paths[i];
+      SvgPath& path = layer.paths.emplace_back();
+      path.name = named.label.name;
+      path.color = named.label.color;
+      path.width = named.stroke_width / scale;
+      // an element's curves follow one another
+      const SvgCurve* const end = svg.curves.data() + svg.curves.size();
+      const SvgCurve* const next = element + 1 == elements.end() ? end : *(element + 1);
+      for (const SvgCurve* curve = *element; curve != next; ++curve)
+        path.pieces.insert(path.pieces.end(), curve->pieces.begin(), curve->pieces.end());
+      ++element;
+    }
+  }
+  SvgWriteOptions options;
+  options.unit = svg.unit;
+  options.page = page;
+  const auto text = write_svg(layers, options);
+  if (!text) return std::unexpected(text.error());
+  return read_svg(*text);
+}
+
+/// Gives a path what differs of its element from what the writer drew, with one page or another.
+void take_changes(document::NamedPath& path, const SvgCurve& now,
+                  const std::array<const SvgCurve*, 2>& drawn, double scale) {
+  constexpr double kRounding = 1e-9;  // of widths in another unit
+  if (now.name != drawn[0]->name) path.label.name = now.name;
+  if (now.layer != drawn[0]->layer) path.label.layer = now.layer;
+  if (now.color != drawn[0]->color) path.label.color = now.color;
+  const bool same_width = std::ranges::any_of(drawn, [&](const SvgCurve* one) {
+    return std::abs(now.stroke_width - one->stroke_width) <= kRounding * one->stroke_width;
+  });
+  if (!same_width) path.stroke_width = now.stroke_width * scale;
+}
+
+/// Gives the paths of a document the names and looks of the elements that its drawing shows them
+/// as, where these are no longer those that were drawn. False where there are not as many.
+bool take_labels(Document& document, const SvgContents& svg, double scale) {
+  const Elements elements = elements_of(svg);
+  if (elements.size() != document.paths.size()) return false;
+  // Lines without a width have one by the size of the page, or of the curves where none was given.
+  const auto tight = drawn_again(document, elements, svg, scale, {});
+  const auto paged = drawn_again(document, elements, svg, scale, svg.page);
+  if (!tight || !paged) return false;
+  const Elements in_tight = elements_of(*tight), in_paged = elements_of(*paged);
+  if (in_tight.size() != elements.size() || in_paged.size() != elements.size()) return false;
+  std::size_t k = 0;
   for (const DrawnLayer& layer : drawn_layers(document))
     for (const std::size_t i : layer.paths) {
-      document.paths[i].label = label_of(**element);
-      document.paths[i].stroke_width = (*element++)->stroke_width * scale;
+      take_changes(document.paths[i], *elements[k], {in_tight[k], in_paged[k]}, scale);
+      ++k;
     }
   return true;
 }

@@ -10,8 +10,8 @@
 namespace keyline::exchange {
 
 /// The drawing of an SVG file as a document. A file write_svg_document() made gives back the very
-/// document that was written, from its metadata. Where names, layers, colours or widths were
-/// changed since, those of all paths are the drawing's; where curves were, the drawing counts alone
+/// document that was written, from its metadata. Names, layers, colours and widths that were
+/// changed since are the drawing's; where curves were, the drawing counts alone
 /// and `skipped` says so. What else others put into it is told as of any file.
 /// Fails as read_svg() and document_from_json().
 core::Result<document::Document> read_svg_document(std::string_view bytes);
