@@ -14,6 +14,7 @@
 #include "keyline/exchange/mesh/mesh.h"
 #include "keyline/exchange/mesh/section_file.h"
 #include "keyline/exchange/points/lattice_reader.h"
+#include "keyline/exchange/points/points_reader.h"
 
 namespace keyline::exchange {
 namespace {
@@ -143,6 +144,29 @@ TEST(SpaceRows, ALatticesHeaderNamesItsColumnsAndUnit) {
   ASSERT_FALSE(height);
   EXPECT_EQ(height.error().path, "file:2");
   EXPECT_EQ(read("x,y,z\n0,0\n").error().message, "row 1 has 2 points, the first row 3");
+}
+
+// The matrix of a PTX moves its points by (10, 20, 30); neither it nor the scanner's place and axes
+// are points.
+TEST(SpaceRows, ScansInPtxAreRefusedByEveryReader) {
+  const std::string text =
+      "3\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n10 20 30 1\n"
+      "0 0 0 0.5\n1 0.5 0 0.5\n2 0.8 0 0.5\n";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("keyline-scan-" + std::to_string(::getpid()) + ".PTX");
+  std::ofstream(file) << text;
+  const auto curves = read_points(file);
+  const auto lattice = read_lattice(file);
+  const auto cloud = section_of_file(file, parse_section("z=0").value(), 1);
+  std::filesystem::remove(file);
+  ASSERT_FALSE(curves);
+  ASSERT_FALSE(lattice);
+  ASSERT_FALSE(cloud);
+  for (const core::Failure& failure : {curves.error(), lattice.error(), cloud.error()}) {
+    EXPECT_THAT(failure.message, HasSubstr("PTX"));
+    EXPECT_EQ(failure.path, file.string());
+    EXPECT_EQ(failure.hint, "convert it to PTS, XYZ or PLY");
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "keyline/exchange/mesh/mesh_notes.h"
 #include "keyline/exchange/mesh/ply_header.h"
 #include "keyline/exchange/points/points_columns.h"
+#include "keyline/exchange/points/points_kind.h"
 #include "keyline/exchange/points/space_rows.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
@@ -31,6 +32,7 @@ class TextPoints {
       : lines_(in, name, std::size_t{1} << 20), name_(name), take_(take) {}
 
   Result<StreamedPoints> read() {
+    if (auto sound = detail::check_kind(name_); !sound) return std::unexpected(sound.error());
     while (true) {
       bool end = false;
       const auto line = lines_.next(end);

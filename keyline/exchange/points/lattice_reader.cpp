@@ -8,6 +8,7 @@
 
 #include "keyline/core/text.h"
 #include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/points/points_kind.h"
 #include "keyline/exchange/points/space_rows.h"
 #include "keyline/exchange/text/ascii.h"
 #include "keyline/exchange/text/line_reader.h"
@@ -93,6 +94,7 @@ core::Result<core::Point3> point_of(detail::SpaceRows& rows, std::string_view li
 
 core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name,
                                        const PointsOptions& options) {
+  if (auto sound = detail::check_kind(name); !sound) return std::unexpected(sound.error());
   LineReader lines(in, name, options.longest_line);
   detail::SpaceRows rows(options);
   std::vector<core::Point3> points;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "keyline/exchange/file/read_file.h"
+#include "keyline/exchange/points/points_kind.h"
 #include "keyline/exchange/points/points_table.h"
 #include "keyline/exchange/text/line_reader.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 core::Result<PointsFile> read(std::istream& in, const std::string& name,
                               const PointsOptions& options) {
+  if (auto sound = detail::check_kind(name); !sound) return std::unexpected(sound.error());
   LineReader lines(in, name, options.longest_line);
   detail::PointsTable table(options);
   while (true) {
