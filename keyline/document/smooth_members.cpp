@@ -50,7 +50,7 @@ void append_pieces(const curve::BSpline2& spline, std::vector<PlanarCurve>& to) 
   const bool stops = std::ranges::any_of(
       curve::stops_of(spline), [](const curve::Stop& stop) { return stop.t > 0 && stop.t < 1; });
   if (!stops && std::ranges::all_of(pieces, has_length) &&
-      std::ranges::adjacent_find(pieces, turns) == pieces.end()) {
+      std::adjacent_find(pieces.begin(), pieces.end(), turns) == pieces.end()) {
     to.push_back({spline});
     return;
   }

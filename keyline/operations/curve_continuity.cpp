@@ -71,7 +71,7 @@ analysis::JointContinuity joint_between(const Ends& before, const Ends& after,
 core::Result<ContinuityResult> run(const ContinuityRequest& request, const Context&) {
   std::vector<Ends> curves;
   for (const document::Path& path : request.curves)
-    std::ranges::transform(path.curves, std::back_inserter(curves), ends_of);
+    for (const auto& curve : path.curves) curves.push_back(ends_of(curve));
   if (curves.size() < 2 && !request.closed)
     return core::fail(core::ErrorCode::bad_input, "a joint needs two curves",
                       "give at least two curves, or \"closed\": true", "curves");
