@@ -61,7 +61,8 @@ struct EndStep {
   /// What a curve that bends more and more, as on its way to a round tip, turns at the end, if of
   /// the turn so much is sure and errors make that much.
   double expected(double sure, double error) const {
-    return sure * std::max(1.0, sure / std::max({turn_before, error, kNoTurn}));
+    const double growth = sure / std::max({turn_before, error, kNoTurn});
+    return sure * std::clamp(growth, 1.0, kCornerTurns);
   }
 };
 

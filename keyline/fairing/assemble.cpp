@@ -68,7 +68,8 @@ void add_run(FairResult& result, const RunResult& solved, const Run& run, int cu
     square += place.offset * place.offset;
     deviation[place.piece] = std::max(deviation[place.piece], std::abs(place.offset));
     double& kept = result.offsets[run.index[j]];
-    if (!(std::abs(place.offset) < std::abs(kept))) kept = place.offset;
+    if (!(std::abs(place.offset) < std::abs(kept)))
+      kept = std::isnan(place.offset) ? HUGE_VAL : place.offset;
   }
   const double rms = std::sqrt(square / static_cast<double>(measured));
   std::vector<FairPiece> pieces =

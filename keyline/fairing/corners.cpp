@@ -45,7 +45,10 @@ class Tying {
         splines_(splines),
         options_(options),
         round_(round),
-        trials_(runs.size()) {}
+        trials_(runs.size()) {
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      held_.push_back(runs[k].tie_end && runs[next(k)].tie_start);
+  }
 
   void run() {
     for (std::size_t k = 0; k < runs_.size(); ++k)
@@ -71,7 +74,7 @@ class Tying {
 
   std::size_t next(std::size_t k) const { return (k + 1) % runs_.size(); }
   bool corner_after(std::size_t k) const {
-    return (next(k) != 0 || round_) && runs_[k].clamp_end == Clamp::none &&
+    return (next(k) != 0 || round_) && !held_[k] && runs_[k].clamp_end == Clamp::none &&
            runs_[next(k)].clamp_start == Clamp::none;
   }
   bool tied(std::size_t k) const { return runs_[k].tie_start || runs_[k].tie_end; }
@@ -138,6 +141,7 @@ class Tying {
   const OptionsOf& options_;
   bool round_;
   std::vector<Trial> trials_;
+  std::vector<bool> held_;  ///< corners whose place is given
 };
 
 }  // namespace

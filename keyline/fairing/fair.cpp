@@ -241,7 +241,8 @@ class Job {
     detail::make_rates_one(result_, solved_, runs_, options_of_runs());
     for (std::size_t k = 0; k < runs_.size(); ++k)
       detail::place_free_ends(solved_[k], runs_[k], run_options(k));
-    result_.notes.push_back(detail::note_of_kept(*plan, runs_.front().inside, result_.tolerance));
+    if (plan->members.size() > runs_.size())
+      result_.notes.push_back(detail::note_of_kept(*plan, runs_.front().inside, result_.tolerance));
     kept_ = std::move(*plan);
     return finish();
   }
@@ -331,8 +332,6 @@ class Job {
       start += lac::arc_length(solved_[k].chain);
     }
     detail::measure_deviation(result_);
-    for (const auto& [index, offset] : kept_.kept_offsets)
-      if (std::isnan(result_.offsets[index])) result_.offsets[index] = offset;
   }
 
   Result<void> reinterpret() {

@@ -224,8 +224,9 @@ struct FairResult {
   std::vector<analysis::MonotonePiece> monotone;  ///< step 3, of all splines in order
   std::vector<int> monotone_spline;               ///< which spline each belongs to
   std::vector<FairPiece> pieces;
-  std::vector<double> offsets;  ///< of every point, positive left of the curve
-  double length = 0;            ///< of the curves together
+  /// Of every point, positive left of the curve; not a number outside a region.
+  std::vector<double> offsets;
+  double length = 0;  ///< of the curves together
   double noise = 0;
   double tolerance = 0;
   double max_deviation = 0;

@@ -159,9 +159,9 @@ class Planning {
       const core::Point2 p = stretch.run.points[k];
       if (k > 0) along += core::distance(stretch.run.points[k - 1], p);
       if (faired[k]) continue;
-      const curve::Jet2 foot = jet(stretch.spline, foot_near(stretch.spline, p, along / length));
-      const double side = core::cross(foot.first, p - foot.point) < 0 ? -1 : 1;
-      plan_.kept_offsets.emplace_back(stretch.run.index[k], side * core::distance(foot.point, p));
+      const double foot = foot_near(stretch.spline, p, along / length);
+      const double off = core::distance(evaluate(stretch.spline, foot), p);
+      plan_.kept_deviation = std::max(plan_.kept_deviation, off);
     }
   }
 
@@ -199,8 +199,11 @@ core::Result<RegionPlan> plan_region(const acquire::KeyLine& line, const FairOpt
     fit::SplineFitOptions one = fit;
     one.progress =
         core::part_of(progress, static_cast<double>(k) * part, static_cast<double>(k + 1) * part);
-    const bool round = (line.closed && !runs[k].closed) || line.ends_meet;
-    const Corners corners{k > 0 || round, k + 1 < runs.size() || round};
+    const bool round = line.closed && !runs[k].closed;
+    const bool meets_at_start = line.ends_meet && options.clamp.start == Clamp::none;
+    const bool meets_at_end = line.ends_meet && options.clamp.end == Clamp::none;
+    const Corners corners{k > 0 || round || meets_at_start,
+                          k + 1 < runs.size() || round || meets_at_end};
     const double length = core::polygon_length(runs[k].points, runs[k].closed);
     if (auto added = planning.add({runs[k], from, {}}, corners, one); !added)
       return std::unexpected(added.error());
@@ -227,11 +230,10 @@ std::vector<double> kept_before(const AnswerMembers& members, std::size_t runs) 
 
 std::string note_of_kept(const RegionPlan& plan, const std::vector<core::HalfPlane>& inside,
                          double tolerance) {
-  double most = 0;
-  for (const auto& [index, offset] : plan.kept_offsets) most = std::max(most, std::abs(offset));
   const double passed = kept_outside(plan.members, inside);
   return fmt::format("outside the region the points' spline stays, up to {:.4g} from them{}{}",
-                     most, most > tolerance ? ", more than the tolerance" : "",
+                     plan.kept_deviation,
+                     plan.kept_deviation > tolerance ? ", more than the tolerance" : "",
                      passed > 0 ? fmt::format("; it passes a bound by {:.3g}", passed) : "");
 }
 

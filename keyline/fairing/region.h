@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "keyline/core/error.h"
@@ -34,8 +33,7 @@ struct RegionPlan {
   std::vector<Run> runs;                 ///< to be faired
   std::vector<curve::BSpline2> splines;  ///< of them, parts of the splines between corners
   AnswerMembers members;
-  /// Of the points outside: index in the key-line, signed distance from what is kept.
-  std::vector<std::pair<std::size_t, double>> kept_offsets;
+  double kept_deviation = 0;  ///< largest distance of a point outside from what is kept
   double bic = 0;
 };
 

@@ -74,15 +74,17 @@ void pass_through(std::vector<Run>& runs, const std::vector<std::size_t>& must_p
 namespace {
 
 /// An outer end that is to be passed is where the curve ends: it is held there and needs no narrow
-/// band of its own.
-void tie_passed_ends(std::vector<Run>& runs) {
-  const auto tie = [](Run& run, Clamp clamp, std::size_t point, std::optional<core::Point2>& end) {
-    if (clamp == Clamp::none && std::erase(run.must_pass, point) > 0) end = run.points[point];
-  };
+/// band of its own. Where the ends meet either holds both.
+void tie_passed_ends(std::vector<Run>& runs, bool ends_meet) {
   Run& first = runs.front();
   Run& last = runs.back();
-  tie(first, first.clamp_start, 0, first.tie_start);
-  tie(last, last.clamp_end, last.points.size() - 1, last.tie_end);
+  const bool at_start = first.clamp_start == Clamp::none && std::erase(first.must_pass, 0) > 0;
+  const bool at_end =
+      last.clamp_end == Clamp::none && std::erase(last.must_pass, last.points.size() - 1) > 0;
+  const bool both = ends_meet && (at_start || at_end);
+  if (at_start || (both && first.clamp_start == Clamp::none))
+    first.tie_start = first.points.front();
+  if (at_end || (both && last.clamp_end == Clamp::none)) last.tie_end = last.points.back();
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ std::vector<Run> runs_of(const acquire::KeyLine& line, const FairOptions& option
   if (line.closed) return runs;
   runs.front().clamp_start = options.clamp.start;
   runs.back().clamp_end = options.clamp.end;
-  tie_passed_ends(runs);
+  tie_passed_ends(runs, line.ends_meet);
   return runs;
 }
 
@@ -114,8 +116,13 @@ core::Result<void> bound_runs(std::vector<Run>& runs, const acquire::KeyLine& li
   };
   for (Run& run : runs) run.inside = inside;
   if (runs.front().closed || line.closed) return {};
-  if (runs.front().clamp_start == Clamp::none) tie(runs.front().tie_start, line.points.front());
-  if (runs.back().clamp_end == Clamp::none) tie(runs.back().tie_end, line.points.back());
+  Run& first = runs.front();
+  Run& last = runs.back();
+  // Of a region the outer runs may begin or end at a corner.
+  if (first.index.front() == 0 && first.clamp_start == Clamp::none)
+    tie(first.tie_start, line.points.front());
+  if (last.index.back() + 1 == line.points.size() && last.clamp_end == Clamp::none)
+    tie(last.tie_end, line.points.back());
   return {};
 }
 

@@ -39,12 +39,6 @@ double most_rms(const acquire::KeyLine& line, const FairResult& result) {
   return std::hypot(std::numbers::sqrt2 * result.noise, left);
 }
 
-double rms_of(const FairResult& result) {
-  double square = 0;
-  for (const double offset : result.offsets) square += offset * offset;
-  return std::sqrt(square / std::max<double>(1, static_cast<double>(result.offsets.size())));
-}
-
 /// How far an answer is from fair, the worse the greater.
 std::tuple<bool, int, double, double> unfairness(const FairResult& result) {
   const FairFigures& f = result.fairness;
@@ -116,7 +110,7 @@ core::Result<FairResult> until_fair(const acquire::KeyLine& line, const FairOpti
     auto found = judged(line, solved(one), before, options.threads);
     if (!found && !best) return found;
     if (!found || (found->cancelled && best)) break;
-    const bool near = !told || rms_of(*found) <= most_rms(line, *found);
+    const bool near = !told || found->rms_deviation <= most_rms(line, *found);
     const bool worth = near || found->fairness.fair;
     if (!best || (worth && unfairness(*found) < unfairness(*best))) best = std::move(*found);
     if (best->fairness.fair || best->cancelled || !best->smoothness_counts) break;

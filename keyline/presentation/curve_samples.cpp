@@ -205,7 +205,8 @@ figure::Overlay deviations(const std::vector<Point2>& points, const std::vector<
     const std::size_t end = (g + 1) * n / groups;
     std::size_t worst = g * n / groups;
     for (std::size_t i = worst + 1; i < end; ++i)
-      if (std::abs(offsets[i]) > std::abs(offsets[worst])) worst = i;
+      if (!(std::abs(offsets[i]) <= std::abs(offsets[worst])) && !std::isnan(offsets[i])) worst = i;
+    if (std::isnan(offsets[worst])) continue;  // outside what was faired
     overlay.points.push_back(points[worst]);
     overlay.feet.push_back(foot_of(points[worst], offsets[worst], curve));
   }

@@ -49,6 +49,19 @@ std::size_t count_beyond(const FairResult& result) {
                     [&](double d) { return std::abs(d) > result.tolerance; }));
 }
 
+/// Points whose distances count: outside a region none do.
+std::string measured_points(const FairResult& result) {
+  const auto measured = std::count_if(result.offsets.begin(), result.offsets.end(),
+                                      [](double d) { return !std::isnan(d); });
+  return core::counted(static_cast<std::size_t>(measured), "point");
+}
+
+bool keeps_parts(const FairResult& result) {
+  return std::ranges::any_of(result.curves, [](const auto& member) {
+    return !std::holds_alternative<lac::Chain>(member);
+  });
+}
+
 std::string fairness_line(const fairing::FairFigures& f) {
   const char* whose = f.smoothing_spline ? "the smoothest spline within the tolerance"
                                          : "the spline through the points";
@@ -71,17 +84,17 @@ void set_verdict(const Material& m, report::Report& report) {
     const bool passed = r.fairness.fair && !r.cancelled;
     report.verdict = passed ? report::Verdict::good : report::Verdict::caution;
     report.verdict_line =
-        fmt::format("Near enough: {} within {} of every point, curvature monotone in each. {}{}",
-                    pieces, length_text(r.tolerance, unit), fairness_line(r.fairness), cut);
+        fmt::format("Near enough: {} within {} of every point{}, curvature monotone in each. {}{}",
+                    pieces, length_text(r.tolerance, unit), keeps_parts(r) ? " of the region" : "",
+                    fairness_line(r.fairness), cut);
     return;
   }
   report.verdict = report::Verdict::bad;
   const std::size_t beyond = count_beyond(r);
-  report.verdict_line =
-      fmt::format("{} of {} lie{} beyond the tolerance of {}; the farthest is {}, {} off.{}",
-                  beyond, core::counted(r.offsets.size(), "point"), beyond == 1 ? "s" : "",
-                  length_text(r.tolerance, unit), place_of(m, r.worst_point),
-                  length_text(r.max_deviation, unit), cut);
+  report.verdict_line = fmt::format(
+      "{} of {} lie{} beyond the tolerance of {}; the farthest is {}, {} off.{}", beyond,
+      measured_points(r), beyond == 1 ? "s" : "", length_text(r.tolerance, unit),
+      place_of(m, r.worst_point), length_text(r.max_deviation, unit), cut);
 }
 
 void set_numbers(const Material& m, report::Report& report) {
@@ -105,8 +118,7 @@ void set_numbers(const Material& m, report::Report& report) {
       {"Pieces", fmt::format("{}", r.pieces.size()), shape},
       {"Largest deviation", length_text(r.max_deviation, unit, 3),
        fmt::format("tolerance {}; at point {}", length_text(r.tolerance, unit, 3), r.worst_point)},
-      {"Rms deviation", length_text(r.rms_deviation, unit, 3),
-       fmt::format("of {}", core::counted(m.line.points.size(), "point"))},
+      {"Rms deviation", length_text(r.rms_deviation, unit, 3), "of " + measured_points(r)},
       {"Noise of the points", length_text(r.noise, unit, 3),
        r.noise > 0 ? "standard deviation, normal to the curve" : "none found"},
       {"Waves of curvature", fmt::format("{}", comb.waves), beside(fmt::format("{}", rival.waves))},

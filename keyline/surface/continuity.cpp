@@ -117,11 +117,12 @@ double worst_gap(const Border& from, const Border& to) {
   return worst;
 }
 
-/// Edges that can be a joint: not those collapsed into a point, unless all are.
+/// Edges that can be a joint: not those collapsed into a point, or no longer than a gap, unless all
+/// are.
 std::vector<Border> candidates(const Surface& s) {
   std::vector<Border> all;
   for (const Edge e : kEdges) all.emplace_back(s, e);
-  const double least = kCollapsed * extent(net_of(s));
+  const double least = kUsualGap * extent(net_of(s));
   auto drawn_out = all;
   std::erase_if(drawn_out, [least](const Border& b) { return b.length() <= least; });
   return drawn_out.empty() ? all : drawn_out;

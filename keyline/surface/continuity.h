@@ -95,7 +95,7 @@ struct EdgeContinuity {
 /// surfaces give the same. Every inner knot of both edges and the middles between are compared as
 /// well, of more than 2,048 spans those of every second, third, ... knot. Samples follow the first
 /// edge. Without edges the pair with the least gap
-/// is taken, of those that are not collapsed. A gap that is not set is kUsualGap of the larger
+/// is taken, of those that are longer than a gap. A gap that is not set is kUsualGap of the larger
 /// extent. Fails: bad_input for count < 2 or above 100,000, a tolerance that is negative or not
 /// finite.
 core::Result<EdgeContinuity> edge_continuity(const Surface& first, const Surface& second,

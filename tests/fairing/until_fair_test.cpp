@@ -133,7 +133,7 @@ TEST(UntilFair, DepartsByMoreThanTheNoiseOnlyWhereThatIsFair) {
           auto result = solver(options, before);
           result->noise = kNoise;
           result->tolerance = kNoise * noise_factor(3);
-          result->offsets.assign(3, kNoise * rms_at(result->smoothness));
+          result->rms_deviation = kNoise * rms_at(result->smoothness);
           return result;
         });
     EXPECT_EQ(found->smoothness, taken);

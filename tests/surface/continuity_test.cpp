@@ -242,6 +242,17 @@ TEST(EdgeContinuity, PolesAreNoJoint) {
   EXPECT_EQ(smooth.without_normal, 1);
 }
 
+// Nor is an edge that is next to a point, however near the corner it lies.
+TEST(EdgeContinuity, AnEdgeShorterThanAGapIsNoJoint) {
+  const BezierSurface flat{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}}, {}};
+  const BezierSurface bulging{
+      {2, 3, {{1, 0, 0}, {1, 0.5, 0.002}, {1, 1, 0}, {1 + 1e-6, 0, 0}, {1.5, 0.5, 0}, {2, 1, 0}}},
+      {}};
+  const EdgeContinuity c = joint(flat, bulging);
+  EXPECT_EQ(c.edges, (std::array{Edge::u1, Edge::u0}));
+  EXPECT_NEAR(c.gap, 1e-3, 1e-5);
+}
+
 // A first row that is there twice leaves the surface but not its derivative across the edge.
 TEST(EdgeContinuity, ARowThatIsThereTwiceHidesNoFold) {
   const BezierSurface flat{{2, 2, {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}}}, {}};
