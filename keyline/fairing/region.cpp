@@ -59,10 +59,12 @@ RegionPoints points_in_region(const std::vector<core::Point2>& points, bool clos
 
 namespace {
 
-/// A run between corners, how far along the key-line it begins, and its spline.
+/// A run between corners, how far along the key-line it begins, the length of the way through its
+/// points, and its spline.
 struct Stretch {
   Run run;
   double from = 0;
+  double length = 0;
   curve::BSpline2 spline;
 };
 
@@ -101,11 +103,10 @@ class Planning {
   /// Parts of the region within the stretch, in its order: where the key-line is closed it may come
   /// round to it again.
   std::vector<RegionPoints> parts_of(const Stretch& stretch) const {
-    const double length = core::polygon_length(stretch.run.points, stretch.run.closed);
     std::vector<RegionPoints> parts;
     for (const double round : {0.0, total_}) {
       const auto along = [&](double share) {
-        return (share * total_ + round - stretch.from) / length;
+        return (share * total_ + round - stretch.from) / stretch.length;
       };
       const core::Interval region{along(options_.region->low), along(options_.region->high)};
       if (region.high <= 0 || region.low >= 1) continue;
@@ -154,12 +155,11 @@ class Planning {
 
   void measure(const Stretch& stretch, const std::vector<bool>& faired) {
     double along = 0;
-    const double length = core::polygon_length(stretch.run.points, stretch.run.closed);
     for (std::size_t k = 0; k < faired.size(); ++k) {
       const core::Point2 p = stretch.run.points[k];
       if (k > 0) along += core::distance(stretch.run.points[k - 1], p);
       if (faired[k]) continue;
-      const double foot = foot_near(stretch.spline, p, along / length);
+      const double foot = foot_near(stretch.spline, p, along / stretch.length);
       const double off = core::distance(evaluate(stretch.spline, foot), p);
       plan_.kept_deviation = std::max(plan_.kept_deviation, off);
     }
@@ -205,7 +205,7 @@ core::Result<RegionPlan> plan_region(const acquire::KeyLine& line, const FairOpt
     const Corners corners{k > 0 || round || meets_at_start,
                           k + 1 < runs.size() || round || meets_at_end};
     const double length = core::polygon_length(runs[k].points, runs[k].closed);
-    if (auto added = planning.add({runs[k], from, {}}, corners, one); !added)
+    if (auto added = planning.add({runs[k], from, length, {}}, corners, one); !added)
       return std::unexpected(added.error());
     from += length;
   }

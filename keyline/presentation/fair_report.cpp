@@ -56,10 +56,10 @@ std::string measured_points(const FairResult& result) {
   return core::counted(static_cast<std::size_t>(measured), "point");
 }
 
-bool keeps_parts(const FairResult& result) {
-  return std::ranges::any_of(result.curves, [](const auto& member) {
-    return !std::holds_alternative<lac::Chain>(member);
-  });
+std::size_t kept_parts(const FairResult& result) {
+  return static_cast<std::size_t>(std::count_if(
+      result.curves.begin(), result.curves.end(),
+      [](const auto& member) { return !std::holds_alternative<lac::Chain>(member); }));
 }
 
 std::string fairness_line(const fairing::FairFigures& f) {
@@ -85,8 +85,8 @@ void set_verdict(const Material& m, report::Report& report) {
     report.verdict = passed ? report::Verdict::good : report::Verdict::caution;
     report.verdict_line =
         fmt::format("Near enough: {} within {} of every point{}, curvature monotone in each. {}{}",
-                    pieces, length_text(r.tolerance, unit), keeps_parts(r) ? " of the region" : "",
-                    fairness_line(r.fairness), cut);
+                    pieces, length_text(r.tolerance, unit),
+                    kept_parts(r) > 0 ? " of the region" : "", fairness_line(r.fairness), cut);
     return;
   }
   report.verdict = report::Verdict::bad;
@@ -100,9 +100,8 @@ void set_verdict(const Material& m, report::Report& report) {
 void set_numbers(const Material& m, report::Report& report) {
   const FairResult& r = m.result;
   const std::string& unit = m.options.unit;
-  std::size_t kept = 0;
+  const std::size_t kept = kept_parts(r);
   int order = 3;
-  for (const auto& member : r.curves) kept += std::holds_alternative<lac::Chain>(member) ? 0 : 1;
   const std::size_t chains = r.curves.size() - kept;
   for (const auto& joint : detail::chain_joints(r)) order = std::min(order, joint.joint.order);
   std::string shape = r.closed ? "closed" : "open";
