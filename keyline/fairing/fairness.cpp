@@ -6,6 +6,7 @@
 #include "keyline/curve/concept.h"
 #include "keyline/curve/length.h"
 #include "keyline/curve/spline_graph.h"
+#include "keyline/fairing/calm.h"
 #include "keyline/fairing/corner_points.h"
 #include "keyline/fairing/fair.h"
 #include "keyline/fairing/flat_pieces.h"
@@ -86,7 +87,8 @@ void hold(FairFigures& figures, const analysis::CombFigures& member,
   const double times = std::max(member.energy / rival.energy, member.jolt / rival.jolt);
   figures.waves_over += std::max(0, member.waves - rival.waves);
   figures.times = std::max(figures.times, times);
-  if (!(member.waves <= rival.waves && times <= kAsGood)) ++figures.unfair;
+  const double most = member.waves < rival.waves ? detail::kWaveWorth : kAsGood;
+  if (!(member.waves <= rival.waves && times <= most)) ++figures.unfair;
 }
 
 }  // namespace

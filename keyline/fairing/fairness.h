@@ -36,8 +36,8 @@ struct FairFigures {
             "where parts are kept as given"),
         core::field<&FairFigures::fair>(
             "every part between corners has no more waves than its spline (or the one through the "
-            "points), energy and jolt at most half as much again; or single pieces that reproduce "
-            "the points to rounding"));
+            "points), energy and jolt at most half as much again, or twice as much where it has "
+            "fewer; or single pieces that reproduce the points to rounding"));
   }
   /// What the answer is held against.
   const analysis::CombFigures& rival() const {

@@ -57,7 +57,18 @@ struct Stretch {
   std::vector<std::size_t> node;
   std::vector<double> value;
   int sense = 0;
+  bool starts_held = false;  ///< the first value stays as it is
+  bool ends_held = false;    ///< the last one does
 };
+
+/// Whether a node's curvature is that of a line or an arc, or of an end that is held.
+bool held(const DenseCurve& curve, std::size_t node) {
+  const std::size_t n = curve.alpha.size();
+  if ((node > 0 || curve.closed) && flat(curve, (node + n - 1) % n)) return true;
+  if ((node < n || curve.closed) && flat(curve, node % n)) return true;
+  return (node == 0 && curve.hold_start >= Hold::curvature) ||
+         (node == n && curve.hold_end >= Hold::curvature);
+}
 
 std::vector<Stretch> stretches_of(const DenseCurve& curve) {
   const std::size_t pieces = curve.alpha.size();
@@ -76,16 +87,22 @@ std::vector<Stretch> stretches_of(const DenseCurve& curve) {
     }
     all.back().node.push_back(p + 1);
   }
-  for (Stretch& s : all)
+  for (Stretch& s : all) {
     for (const std::size_t node : s.node) s.value.push_back(curve.value[node]);
+    s.starts_held = held(curve, s.node.front());
+    s.ends_held = held(curve, s.node.back());
+  }
   return all;
 }
 
 double along(const DenseCurve& curve, std::size_t node) { return curve.at[curve.cut[node]]; }
 
-/// The stretch's values, strictly running as they should.
+/// The stretch's values, strictly running as they should: on from a held one, and up to one.
 void straighten(const DenseCurve& curve, Stretch& stretch, double most_tilt) {
   for (double& v : stretch.value) v *= stretch.sense;
+  const double least = stretch.starts_held ? stretch.value.front() : -HUGE_VAL;
+  const double most = stretch.ends_held ? stretch.value.back() : HUGE_VAL;
+  for (double& v : stretch.value) v = std::min(std::max(v, least), most);
   std::vector<double> way{0};
   for (std::size_t i = 1; i < stretch.node.size(); ++i) {
     const double step = along(curve, stretch.node[i]) - along(curve, stretch.node[i - 1]);
@@ -97,9 +114,12 @@ void straighten(const DenseCurve& curve, Stretch& stretch, double most_tilt) {
     const std::size_t last = first + blocks[b].count - 1;
     const double tilt = first == last ? 0 : tilt_of(blocks, b, most_tilt);
     const double length = first == last ? 1 : way[last] - way[first];
+    const bool upwards = b == 0 && stretch.starts_held;
+    const bool downwards = b + 1 == blocks.size() && stretch.ends_held;
+    const double mean = blocks[b].mean + (upwards ? tilt : downwards ? -tilt : 0);
     for (std::size_t i = first; i <= last; ++i) {
       const double share = 2 * (way[i] - way[first]) / length - 1;
-      stretch.value[i] = stretch.sense * (blocks[b].mean + tilt * share);
+      stretch.value[i] = stretch.sense * (mean + tilt * share);
     }
     first = last + 1;
   }

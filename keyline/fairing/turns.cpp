@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+#include <span>
 
 #include "keyline/analysis/comb_figures.h"
 
@@ -25,10 +25,75 @@ double range_of(const DenseCurve& curve) {
   return *high - *low;
 }
 
-/// Amplitude of a wave whose curvature swings by so much over half a wave's length: of
-/// swing/2 * sin(pi s / half), integrated twice.
-double sideways(double swing, double half) {
-  return 0.5 * std::abs(swing) * half * half / (std::numbers::pi * std::numbers::pi);
+/// Cells of a stretch of the curve that have one mean curvature once it may only run one way.
+struct Pooled {
+  double sum = 0;  ///< of curvature over arc length
+  double width = 0;
+  std::size_t cells = 0;
+  double mean() const { return sum / width; }
+};
+
+/// A cell's mean curvature and its share of the length.
+struct Mean {
+  double curvature = 0;
+  double width = 0;
+};
+
+/// Curvatures as near as may be that run one way (+1 up, -1 down).
+///
+/// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
+std::vector<Pooled> pooled(const std::vector<Mean>& cells, double way) {
+  std::vector<Pooled> blocks;
+  for (const Mean& cell : cells) {
+    blocks.push_back({cell.curvature * cell.width, cell.width, 1});
+    while (blocks.size() > 1 && way * blocks.end()[-2].mean() >= way * blocks.back().mean()) {
+      const Pooled last = blocks.back();
+      blocks.pop_back();
+      blocks.back().sum += last.sum;
+      blocks.back().width += last.width;
+      blocks.back().cells += last.cells;
+    }
+  }
+  return blocks;
+}
+
+/// How far a curve departs sideways, from the middle of what it does about its chord, where these
+/// cells have one curvature: the difference integrated twice, in shares of the length.
+double departure(std::span<const Mean> cells, double curvature) {
+  std::vector<double> off{0}, place{0};
+  double turn = 0;
+  for (const Mean& cell : cells) {
+    const double bend = cell.curvature - curvature;
+    off.push_back(off.back() + cell.width * (turn + cell.width * bend / 2));
+    place.push_back(place.back() + cell.width);
+    turn += cell.width * bend;
+  }
+  double low = 0, high = 0;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    const double from_chord = off[i] - off.back() * place[i] / place.back();
+    low = std::min(low, from_chord);
+    high = std::max(high, from_chord);
+  }
+  return (high - low) / 2;
+}
+
+/// The same from node a to b (of a closed curve perhaps on other laps), where curvature becomes one
+/// that only runs that way; in the curve's unit. Of a wave that is a sine this is its amplitude.
+double departure(const DenseCurve& curve, int a, int b, double way) {
+  const int count = static_cast<int>(curve.joints.size()) - 1;
+  std::vector<Mean> cells;
+  for (int i = a; i < b; ++i) {
+    const int c = (i + count) % count;
+    const double sum = curve.joints[c].curvature + curve.joints[c + 1].curvature;
+    cells.push_back({sum / 2, curve.at[c + 1] - curve.at[c]});
+  }
+  double most = 0;
+  std::size_t first = 0;
+  for (const Pooled& block : pooled(cells, way)) {
+    most = std::max(most, departure({&cells[first], block.cells}, block.mean()));
+    first += block.cells;
+  }
+  return most * curve.length;
 }
 
 /// Cells before or behind an extremum along which curvature stays as it is, up to `most`.
@@ -90,22 +155,32 @@ int seen_waves(const DenseCurve& curve) {
 
 std::vector<Removal> removals(const DenseCurve& curve, const std::vector<int>& extrema) {
   std::vector<Removal> all;
-  const std::size_t n = extrema.size();
+  const int n = static_cast<int>(extrema.size());
+  const int last = static_cast<int>(curve.joints.size()) - 1;
   std::vector<std::size_t> before(curve.joints.size());  // feet in the cells before a node
   for (const Foot& foot : curve.feet) ++before[foot.piece + 1];
   std::partial_sum(before.begin(), before.end(), before.begin());
-  const auto add = [&](int a, int b, double lap, std::size_t first, std::size_t count) {
-    const double swing = (curve.joints[b].curvature - curve.joints[a].curvature) / curve.length;
-    const double half = std::abs(curve.at[b] - curve.at[a] + lap) * curve.length;
-    const std::size_t points = before[b] - before[a] + (lap > 0 ? before.back() : 0);
-    all.push_back({sideways(swing, half), half / curve.length, first, count, points});
+  // Node of an extremum; beyond the first and last an open curve's ends, or the next lap's.
+  const auto node = [&](int i) {
+    if (!curve.closed) return i < 0 ? 0 : i < n ? extrema[i] : last;
+    return extrema[(i + n) % n] + (i < 0 ? -last : i < n ? 0 : last);
   };
-  for (std::size_t i = 0; i + 1 < n; ++i) add(extrema[i], extrema[i + 1], 0, i, 2);
+  const auto add = [&](int from, int to, std::size_t first, std::size_t count) {
+    const int a = node(from);
+    const int b = node(to) - (node(to) > last ? last : 0);
+    const int lap = b < a ? 1 : 0;
+    // What goes runs against what stays on both sides of it.
+    const double way = curve.joints[a].curvature - curve.joints[b].curvature;
+    all.push_back({departure(curve, node(from - 1), node(to + 1), way),
+                   curve.at[b] - curve.at[a] + lap, first, count,
+                   before[b] - before[a] + lap * before.back()});
+  };
+  for (int i = 0; i + 1 < n; ++i) add(i, i + 1, i, 2);
   if (curve.closed) {
-    if (n > 2) add(extrema[n - 1], extrema[0], 1, n - 1, 2);
+    if (n > 2) add(n - 1, n, n - 1, 2);
   } else if (n > 0) {
-    add(0, extrema[0], 0, 0, 1);
-    add(extrema[n - 1], static_cast<int>(curve.joints.size()) - 1, 0, n - 1, 1);
+    add(-1, 0, 0, 1);
+    add(n - 1, n, n - 1, 1);
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const Removal& a, const Removal& b) { return a.sideways < b.sideways; });

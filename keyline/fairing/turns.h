@@ -24,8 +24,10 @@ int seen_waves(const DenseCurve& curve);
 
 /// A swing of curvature that may go: which extrema bound it.
 struct Removal {
-  double sideways = HUGE_VAL;  ///< how far a wave of this swing and width departs from its middle
-  double share = 0;            ///< of the length
+  /// How far the curve departs sideways where the curvature that runs on without the swing is the
+  /// nearest one (mean squares over arc length) and all else stays. Of a sine: its amplitude.
+  double sideways = HUGE_VAL;
+  double share = 0;  ///< of the length
   std::size_t first = 0;
   std::size_t count = 0;                              ///< 1 at an end, else 2
   std::size_t points = static_cast<std::size_t>(-1);  ///< whose feet lie on it

@@ -5,8 +5,11 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kSame = 1e-3;   // of a swing: no more than that is another trial's doing
-constexpr double kHopeless = 4;  // tolerances: a wave twice as wide as the band cannot be taken out
+constexpr double kSame = 1e-3;  // of a swing: no more than that is another trial's doing
+// Tolerances: no wave that departs by more was ever taken out. All else stays in that figure;
+// solved again the curve spreads it, and of 1,241 trials on 68 profiles none beyond 3.4 came within
+// the band, of fillets between straights some up to 5.
+constexpr double kHopeless = 8;
 constexpr std::size_t kHeldBy = 4;  // points or more: so many tell a rate of curvature
 // Single waves that are tried. In a row that all stay, least first, twice as many as stood before
 // one that went on any measured profile: wider ones stay too. Of one curve, three times as many as

@@ -116,15 +116,19 @@ def written(value):
     return text.replace("-Infinity", "-1e999").replace("Infinity", "1e999").replace("NaN", "null")
 
 
-def bound():
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 1))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+def bound(sanitized):
+    """Limits of a trial. A sanitizer takes addresses by the terabyte, and ten times as long."""
+    seconds = 10 * SECONDS if sanitized else SECONDS
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+    if not sanitized:
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 class Trials:
-    def __init__(self, program, keep):
+    def __init__(self, program, keep, sanitized):
         self.program = str(program)
+        self.sanitized = sanitized
         self.keep = keep
         self.faults = 0
         self.statuses = {}
@@ -133,7 +137,8 @@ class Trials:
     def run(self, words, folder, text=None):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = subprocess.run([self.program, *words], cwd=folder, input=text, capture_output=True,
-                              text=True, errors="replace", timeout=600, preexec_fn=bound)
+                              text=True, errors="replace", timeout=600,
+                              preexec_fn=lambda: bound(self.sanitized))
         seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         given = text or (pathlib.Path(folder) / "given.json").read_text()
         self.slowest = max(self.slowest, (seconds, f"{' '.join(words)}: {given}"))
@@ -262,10 +267,11 @@ def main():
     parser.add_argument("--trials", type=int, default=3000 if os.environ.get("KEYLINE_FULL") else 60)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path, help="a folder for what made a fault")
+    parser.add_argument("--sanitized", action="store_true", help="the program is")
     options = parser.parse_args()
     dice = random.Random(options.seed)
     program = options.program.resolve()
-    trials = Trials(program, options.keep and options.keep.resolve())
+    trials = Trials(program, options.keep and options.keep.resolve(), options.sanitized)
     models = models_of(program, options.examples.resolve())
     models.update({path.name: json.loads(path.read_text()) for path in options.files})
     requests = requests_of(program)

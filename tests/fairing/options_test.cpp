@@ -325,6 +325,8 @@ TEST(FairOptions, LinesAndArcsOfTheDataComeOut) {
   bool arc = false;
   for (const FairPiece& piece : result.pieces) arc = arc || piece.rhythm == analysis::Rhythm::arc;
   EXPECT_TRUE(arc);
+  EXPECT_EQ(result.fairness.answer.waves, 1);
+  EXPECT_TRUE(result.fairness.fair);
 }
 
 /// Half a bottle with noise: straight foot, wall, neck and lip come out exactly straight, between

@@ -137,6 +137,49 @@ TEST(KeepRises, HeldEndsAndFlatPiecesStay) {
   EXPECT_EQ(flat.value[1], 2);
 }
 
+// Beside a line what would run the other way rises from none, or up to it: no limit is left out.
+TEST(KeepRises, RunsOnFromLinesAndUpToThem) {
+  const std::vector<double> bow{0, 0, -0.3, -0.1, 0.4, 1};
+  DenseCurve on = of(bow, {0, 1, 1, 1, 1});
+  on.kind.assign(5, PieceKind::curve);
+  on.kind[0] = PieceKind::line;
+  const DenseCurve given = on;
+  keep_rises(on);
+  EXPECT_TRUE(keeps_senses(on));
+  EXPECT_EQ(RiseBarrier(given, 0.1).count(), 3);  // as it was, one rise is the wrong way
+  EXPECT_EQ(RiseBarrier(on, 0.1).count(), 4);
+  EXPECT_EQ(on.value[0], 0);
+  EXPECT_EQ(on.value[1], 0);
+  EXPECT_EQ(on.value[5], 1);
+  std::vector<double> back(bow.rbegin(), bow.rend());
+  DenseCurve down = of(back, {-1, -1, -1, -1, 0});
+  down.kind.assign(5, PieceKind::curve);
+  down.kind[4] = PieceKind::line;
+  keep_rises(down);
+  for (std::size_t i = 0; i < bow.size(); ++i)
+    EXPECT_NEAR(down.value[i], on.value[5 - i], 1e-14) << i;
+  for (double& v : back) v = -v;
+  DenseCurve up = of(back, {1, 1, 1, 1, 0});
+  up.kind = down.kind;
+  keep_rises(up);
+  for (std::size_t i = 0; i < bow.size(); ++i) EXPECT_EQ(up.value[i], -down.value[i]) << i;
+}
+
+// So it is from a held curvature, which the next would have drawn down with it.
+TEST(KeepRises, RunsOnFromHeldCurvatures) {
+  DenseCurve curve = of({2, 1, 1.5, 4}, {1, 1, 1});
+  curve.hold_start = Hold::curvature;
+  keep_rises(curve);
+  EXPECT_TRUE(keeps_senses(curve));
+  EXPECT_EQ(curve.value[0], 2);
+  EXPECT_EQ(curve.value[3], 4);
+  DenseCurve end = of({1, 5, 4.5, 4}, {1, 1, 1});
+  end.hold_end = Hold::curvature;
+  keep_rises(end);
+  EXPECT_TRUE(keeps_senses(end));
+  EXPECT_EQ(end.value[3], 4);
+}
+
 // Ends of different senses meet where the curve turns: the top stays above both sides.
 TEST(KeepRises, TurnsStayTurns) {
   DenseCurve curve = of({1, 0.5, 2, 3, 2.5, 2.8, 1}, {1, 1, 1, -1, -1, -1});

@@ -94,7 +94,9 @@ TEST(Stretches, ArcsThatStepInCurvatureAreFairedWithoutNeedles) {
   const auto result = fair(drawn_line(along_arcs({{1, 1.4}, {2.5, 0.8}}, 801)));
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(result->within_tolerance);
-  for (const FairPiece& piece : result->pieces) EXPECT_GT(piece.length, 0.02 * 2.2);
+  EXPECT_EQ(result->fairness.answer.waves, 0);  // curvature rises once, from 1 to 2.5
+  EXPECT_LT(result->fairness.answer.jolt, 2 * result->fairness.smoothing_spline->jolt);
+  for (const FairPiece& piece : result->pieces) EXPECT_GT(piece.length, 0.01 * 2.2);
 }
 
 // In the points' own unit, however large.

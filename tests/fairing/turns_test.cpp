@@ -101,49 +101,126 @@ TEST(Turns, AreSeenFromAFiftiethOfTheRange) {
   EXPECT_EQ(seen_turns_of(of({0, 10, 9.81, 10, 0})).size(), 1U);
 }
 
-/// How far a curve of this curvature, from 0 to `width`, departs from the line between its ends:
-/// curvature integrated twice.
-double departure(const std::function<double(double)>& curvature, double width) {
-  constexpr int kSteps = 20000;
-  const double h = width / kSteps;
-  std::vector<double> sideways{0};
-  double slope = 0, off = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double bend = curvature((i + 0.5) * h);
-    off += h * (slope + 0.5 * h * bend);
-    slope += h * bend;
-    sideways.push_back(off);
-  }
+/// The nearest values (mean squares) that rise, by the formula of greatest and least means
+/// ([Barlow 1972], theorem 1.9): of cells of one width.
+std::vector<double> rising(const std::vector<double>& value) {
+  const std::size_t n = value.size();
+  std::vector<double> sum{0};
+  for (const double v : value) sum.push_back(sum.back() + v);
+  std::vector<double> nearest(n, -HUGE_VAL);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double least = HUGE_VAL;
+      for (std::size_t k = i; k < n; ++k)
+        least = std::min(least, (sum[k + 1] - sum[j]) / double(k + 1 - j));
+      nearest[i] = std::max(nearest[i], least);
+    }
+  return nearest;
+}
+
+/// How far a curve departs whose curvature, of cells of width h, becomes the nearest that rises: of
+/// each stretch that changes half the range of what it departs from its chord.
+double departure(const std::vector<double>& value, double h) {
+  const std::vector<double> nearest = rising(value);
   double most = 0;
-  for (int i = 0; i <= kSteps; ++i) most = std::max(most, std::abs(sideways[i] - off * i / kSteps));
+  for (std::size_t from = 0, to = 0; from < value.size(); from = to) {
+    while (to < value.size() && nearest[to] == nearest[from]) ++to;
+    const auto off = [&](double s) {  // of (s - t) (value - nearest) dt, cell by cell
+      double sum = 0;
+      for (std::size_t c = from; c < to; ++c) {
+        const double a = h * double(c - from), b = std::min(a + h, s);
+        if (b > a) sum += (value[c] - nearest[c]) * (b - a) * (s - (a + b) / 2);
+      }
+      return sum;
+    };
+    const double whole = h * double(to - from);
+    double low = 0, high = 0;
+    for (double s = 0; s < whole + h / 2; s += h) {
+      const double away = off(s) - off(whole) * s / whole;
+      low = std::min(low, away);
+      high = std::max(high, away);
+    }
+    most = std::max(most, (high - low) / 2);
+  }
   return most;
 }
 
-// A curve of a length of 3, whose curvature is a hill and a valley: from an end up to the hill,
-// from there down, and up to the other end. Each is as wide as a half wave of a sine with that
-// swing, and departs as far from its middle.
-TEST(Removals, DepartAsFarAsAWaveOfTheirSwingAndWidth) {
-  DenseCurve curve = of({1, 6, 4, 2, 3});
-  curve.at = {0, 0.1, 0.2, 0.5, 1};
-  curve.length = 3;
-  const std::vector<Removal> all = removals(curve, {1, 3});
-  ASSERT_EQ(all.size(), 3U);
-  struct Expected {
-    double swing;
-    double share;
-    std::size_t first, count;
+/// A curve whose curvature at the shares of its length i / cells this is.
+DenseCurve with(const std::function<double(double)>& curvature, int cells, double length) {
+  std::vector<double> k;
+  for (int i = 0; i <= cells; ++i) k.push_back(curvature(double(i) / cells));
+  DenseCurve curve = of(k);
+  curve.length = length;
+  return curve;
+}
+
+// A sine of three waves: without a swing between its ends the curve goes straight on, and departs
+// by the amplitude that a sine of curvature has in the plane.
+TEST(Removals, OfASineDepartByItsAmplitude) {
+  const double swing = 0.8, length = 3;  // curvature is times the length
+  const double wave = 2 * core::kPi * 3;
+  const auto sine = [&](double s) { return 2 + swing * std::sin(wave * s); };
+  const DenseCurve curve = with(sine, 360, length);
+  const double amplitude = length * swing / (wave * wave);
+  int inside = 0;
+  for (const Removal& r : removals(curve, {30, 90, 150, 210, 270, 330})) {
+    EXPECT_NEAR(r.share, r.count == 2 ? 1. / 6 : 1. / 12, 1e-12);
+    if (r.count != 2) continue;
+    ++inside;
+    EXPECT_NEAR(r.sideways, amplitude, 2e-3 * amplitude) << r.first;
+  }
+  EXPECT_EQ(inside, 5);
+}
+
+// Straight, a little to the other side, and into a bend, as where a fillet begins: the swing is as
+// wide as the straight, and departs no farther than what is not straight in it.
+TEST(Removals, DepartNowhereWhereCurvatureIsLevel) {
+  const auto fillet = [](double s) {
+    if (s < 0.4) return 0.0;
+    if (s < 0.5) return -4 * std::pow(std::sin(5 * core::kPi * (s - 0.4)), 2);
+    return std::min(30.0, 300 * (s - 0.5) - 4);
   };
-  // Least first: 5 over a tenth of the length (1), 1 over a half (5), 4 over four tenths (12.8).
-  const std::vector<Expected> expected{{5, 0.1, 0, 1}, {1, 0.5, 1, 1}, {4, 0.4, 0, 2}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& [swing, share, first, count] = expected[i];
-    const double width = 3 * share, amplitude = swing / 3 / 2;  // curvature is times the length
-    const double away =
-        departure([&](double s) { return amplitude * std::sin(core::kPi * s / width); }, width);
-    EXPECT_NEAR(all[i].sideways, away, 1e-6 * away) << i;
-    EXPECT_NEAR(all[i].share, share, 1e-12) << i;
-    EXPECT_EQ(all[i].first, first) << i;
-    EXPECT_EQ(all[i].count, count) << i;
+  const DenseCurve curve = with(fillet, 200, 2);
+  const std::vector<Removal> all = removals(curve, {100, 199});
+  std::vector<double> cells;
+  for (int i = 0; i < 199; ++i)
+    cells.push_back((curve.joints[i].curvature + curve.joints[i + 1].curvature) / 2);
+  const double away = 2 * departure(cells, 1. / 200);
+  const auto first = std::find_if(all.begin(), all.end(),
+                                  [](const Removal& r) { return r.first == 0 && r.count == 1; });
+  ASSERT_NE(first, all.end());
+  EXPECT_NEAR(first->sideways, away, 1e-9 * away);
+  EXPECT_LT(first->sideways, 0.1 * 2 * 4 * 0.5 * 0.5 / (core::kPi * core::kPi));  // as if of a wave
+}
+
+// Least first, by the nearest curvature that only runs one way; falling ones as rising ones.
+TEST(Removals, DepartAsTheNearestCurvatureThatRunsOneWay) {
+  const auto waves = [](double s) {
+    return 5 * s + 2 * std::sin(19 * s) + std::sin(41 * s + 1) + 0.5 * std::cos(67 * s);
+  };
+  for (const double sign : {1., -1.}) {
+    const DenseCurve curve = with([&](double s) { return sign * waves(s); }, 120, 1.5);
+    const std::vector<int> turns = turns_of(curve);
+    const std::vector<Removal> all = removals(curve, turns);
+    ASSERT_GT(all.size(), 6U);
+    EXPECT_EQ(all.size(), turns.size() + 1);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Removal& r = all[i];
+      EXPECT_GE(r.sideways, all[i > 0 ? i - 1 : 0].sideways);
+      const bool at_start = r.count == 1 && r.first == 0;
+      const bool at_end = r.count == 1 && !at_start;
+      const std::size_t last = r.first + r.count;
+      const int from = at_start || r.first == 0 ? 0 : turns[r.first - 1];
+      const int to = at_end || last >= turns.size() ? 120 : turns[last];
+      const int a = at_start ? 0 : turns[r.first];
+      const int b = at_start ? turns[0] : at_end ? 120 : turns[r.first + 1];
+      const double way = curve.joints[a].curvature > curve.joints[b].curvature ? 1 : -1;
+      std::vector<double> cells;
+      for (int c = from; c < to; ++c)
+        cells.push_back(way * (curve.joints[c].curvature + curve.joints[c + 1].curvature) / 2);
+      const double away = 1.5 * departure(cells, 1. / 120);
+      EXPECT_NEAR(r.sideways, away, 1e-9 * away + 1e-15) << sign << ", " << r.first;
+    }
   }
 }
 
@@ -167,16 +244,32 @@ TEST(Removals, OfClosedCurvesGoOnOverTheSeam) {
   const DenseCurve curve = of({3, 1, 2, 0.5, 2.5, 3}, true);  // nodes a fifth of the length apart
   const std::vector<Removal> all = removals(curve, {0, 1, 2, 3});
   ASSERT_EQ(all.size(), 4U);
-  // Swings of 1, 1.5, 2 and 2.5 over 1, 1, 1 and 2 fifths.
-  EXPECT_EQ(all[0].first, 1U);
-  EXPECT_EQ(all[1].first, 2U);
-  EXPECT_EQ(all[2].first, 0U);
-  EXPECT_EQ(all[3].first, 3U);
-  for (const Removal& r : all) EXPECT_EQ(r.count, 2U);
-  EXPECT_NEAR(all[3].share, 0.4, 1e-12);
-  EXPECT_NEAR(all[3].sideways / all[0].sideways, 2.5 * 4, 1e-12);
+  for (const Removal& r : all) {
+    EXPECT_EQ(r.count, 2U);
+    EXPECT_NEAR(r.share, r.first == 3 ? 0.4 : 0.2, 1e-12);
+  }
   EXPECT_EQ(removals(curve, {0, 3}).size(), 1U);
   EXPECT_TRUE(removals(curve, {}).empty());
+}
+
+// Wherever a closed curve begins, its swings are the same.
+TEST(Removals, OfClosedCurvesDoNotDependOnTheSeam) {
+  const auto waves = [](double s) {
+    const double t = 2 * core::kPi * s;
+    return std::cos(2 * t) + 0.6 * std::sin(3 * t + 1) + 0.3 * std::cos(7 * t);
+  };
+  std::vector<double> first;
+  for (const int start : {0, 13, 44, 91}) {
+    DenseCurve curve = with([&](double s) { return waves(s + start / 120.); }, 120, 1);
+    curve.closed = true;
+    std::vector<double> sideways;
+    for (const Removal& r : removals(curve, turns_of(curve))) sideways.push_back(r.sideways);
+    if (first.empty()) first = sideways;
+    ASSERT_EQ(sideways.size(), first.size()) << start;
+    ASSERT_GT(sideways.size(), 5U);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      EXPECT_NEAR(sideways[i], first[i], 1e-12) << start << ", " << i;
+  }
 }
 
 TEST(Removals, OfAnOpenCurveWithoutTurnsAreNone) {

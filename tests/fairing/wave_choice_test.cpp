@@ -178,16 +178,16 @@ TEST(SingleWaves, AreTriedUpToTheirNumber) {
   }
 }
 
-// Wider than four tolerances no wave goes, so that none is missed.
+// Wider than eight tolerances no wave goes, so that none is missed.
 TEST(SingleWaves, EndWhereNoneCanGo) {
   for (const std::size_t most : {1U, 4U}) {
-    const Tried some = tried(many(60), 1.105 / 4, 0, most);
+    const Tried some = tried(many(60), 1.105 / 8, 0, most);
     EXPECT_EQ(some.waves.size(), 11U);
     EXPECT_FALSE(some.too_many);
-    EXPECT_EQ(tried({swing(4, 0)}, 1, 0, most).waves.size(), 1U);
-    EXPECT_TRUE(tried(many(60), 0.99 / 4, 0, most).waves.empty());
-    EXPECT_FALSE(tried(many(30), 1.235 / 4, 0, most).too_many);  // 24 of them
-    EXPECT_TRUE(tried(many(30), 1.245 / 4, 0, most).too_many);   // 25
+    EXPECT_EQ(tried({swing(8, 0)}, 1, 0, most).waves.size(), 1U);
+    EXPECT_TRUE(tried(many(60), 0.99 / 8, 0, most).waves.empty());
+    EXPECT_FALSE(tried(many(30), 1.235 / 8, 0, most).too_many);  // 24 of them
+    EXPECT_TRUE(tried(many(30), 1.245 / 8, 0, most).too_many);   // 25
   }
 }
 
