@@ -64,7 +64,10 @@ std::string text_of(const std::string& name, const json& result) {
                         number_text(v["cav"], 6), place, number_text(v["energy"], 6),
                         v["monotone"].get<std::string>());
   }
-  return text + fmt::format("departure {:.4g} at most\n", result["departure"].get<double>());
+  text += fmt::format("departure {:.4g} at most\n", result["departure"].get<double>());
+  if (const auto moved = result["end_moved"].get<double>(); moved > 0)
+    text += fmt::format("the end that is let go moves by {:.4g}\n", moved);
+  return text;
 }
 
 std::string pieces_text(const std::string& name, const json& result) {

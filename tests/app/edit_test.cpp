@@ -40,6 +40,10 @@ TEST(Edit, HalfWayAndByHand) {
   EXPECT_GT(alpha, 0.65);
   const Outcome told = run_keyline("edit " + kCubic + " --amount 0");
   EXPECT_NE(told.out.find("departure 0 at most"), std::string::npos) << told.out;
+  EXPECT_EQ(told.out.find("moves by"), std::string::npos) << told.out;
+  const Outcome let_go = run_keyline("edit " + kCubic + " --end-tolerance 0.01");
+  EXPECT_NE(let_go.out.find("the end that is let go moves by 0.01\n"), std::string::npos)
+      << let_go.out;
   const Outcome hand = run_keyline("edit " + kCubic + " --target 0.7,1.5 --hold ends --json");
   ASSERT_EQ(hand.status, 0) << hand.err;
   EXPECT_NEAR(json::parse(hand.out)["after"]["s"].get<double>(), 1.5, 1e-9);
