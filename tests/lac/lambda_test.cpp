@@ -37,5 +37,13 @@ TEST(LambdaOf, IsTheSameAtEverySize) {
     EXPECT_NEAR(lambda_of({-1, 3 * size, 2 / size, 0.5 / size}), 0.125, 1e-14) << size;
 }
 
+// A logarithmic spiral's radius falls evenly to next to nothing; the square of its curvature is no
+// number.
+TEST(LambdaOf, IsFiniteHoweverSharpAnEndIs) {
+  const double lambda = 1e6 / 3;
+  EXPECT_NEAR(lambda_of({1, 3, 1e-6, 6e162}), lambda, 1e-13 * lambda);
+  EXPECT_NEAR(lambda_of({1, 3, -6e162, -1e-6}), lambda, 1e-13 * lambda);
+}
+
 }  // namespace
 }  // namespace keyline::lac
