@@ -195,7 +195,7 @@ onStage("drawing", [], (stage) => {
     await page.mouse.move(near.x + 5, near.y - 4);
     await page.mouse.down();
     await page.mouse.up();
-    expect(await page.locator("#reading").textContent()).toContain("end of");
+    await expect.poll(() => page.locator("#reading").textContent()).toContain("end of");
     for (const [dx, dy] of [[60, -40], [120, 10]] as const) await page.mouse.click(near.x + dx, near.y + dy);
     await settled(page);
     const start = await page.evaluate(() => (window.keyline.store.doc.entities.at(-1) as { points: [number, number][] }).points[0]);
