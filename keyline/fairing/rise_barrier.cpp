@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "keyline/fairing/pooled.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -12,43 +15,15 @@ constexpr double kTilt = 1e-2;       // of the curvature's range: how far level 
 constexpr double kClear = 0.25;      // of the way to the neighbours that a tilt may take
 constexpr double kSlower = 0.9;      // of the fastest rate: where the solver starts
 
-/// Neighbours with one mean: how many, and the least and the greatest of their values.
-struct Block {
-  double mean = 0;
-  std::size_t count = 1;
-  double low = 0;
-  double high = 0;
-};
-
-/// Means of neighbours until they rise: pooling adjacent violators.
-///
-/// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
-std::vector<Block> pooled(const std::vector<double>& value) {
-  std::vector<Block> blocks;
-  for (const double v : value) {
-    blocks.push_back({v, 1, v, v});
-    while (blocks.size() > 1 && blocks.end()[-2].mean >= blocks.back().mean) {
-      const Block last = blocks.back();
-      blocks.pop_back();
-      Block& one = blocks.back();
-      const double sum =
-          one.mean * static_cast<double>(one.count) + last.mean * static_cast<double>(last.count);
-      one.count += last.count;
-      one.mean = sum / static_cast<double>(one.count);
-      one.low = std::min(one.low, last.low);
-      one.high = std::max(one.high, last.high);
-    }
-  }
-  return blocks;
-}
-
-/// How far the values of a block may rise about their mean: as far apart as they were (`most`,
+/// How far the values of a pool may rise about their mean: as far apart as they were (`most`,
 /// where they were equal), and clear of the neighbours.
-double tilt_of(const std::vector<Block>& blocks, std::size_t b, double most) {
-  const Block& block = blocks[b];
-  double tilt = block.high > block.low ? std::min(block.high - block.low, most) : most;
-  if (b > 0) tilt = std::min(tilt, kClear * (block.mean - blocks[b - 1].mean));
-  if (b + 1 < blocks.size()) tilt = std::min(tilt, kClear * (blocks[b + 1].mean - block.mean));
+double tilt_of(const std::vector<Pool>& pools, std::size_t b, std::span<const double> value,
+               double most) {
+  const auto [low, high] = std::minmax_element(value.begin(), value.end());
+  double tilt = *high > *low ? std::min(*high - *low, most) : most;
+  const double mean = pools[b].mean;
+  if (b > 0) tilt = std::min(tilt, kClear * (mean - pools[b - 1].mean));
+  if (b + 1 < pools.size()) tilt = std::min(tilt, kClear * (pools[b + 1].mean - mean));
   return tilt;
 }
 
@@ -108,15 +83,18 @@ void straighten(const DenseCurve& curve, Stretch& stretch, double most_tilt) {
     const double step = along(curve, stretch.node[i]) - along(curve, stretch.node[i - 1]);
     way.push_back(way.back() + step - std::floor(step));
   }
-  const std::vector<Block> blocks = pooled(stretch.value);
+  const std::vector<Pool> pools = pooled(
+      stretch.value.size(), [&](std::size_t i) { return stretch.value[i]; },
+      [](std::size_t) { return 1.0; });
   std::size_t first = 0;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const std::size_t last = first + blocks[b].count - 1;
-    const double tilt = first == last ? 0 : tilt_of(blocks, b, most_tilt);
+  for (std::size_t b = 0; b < pools.size(); ++b) {
+    const std::size_t last = first + pools[b].count - 1;
+    const double tilt =
+        first == last ? 0 : tilt_of(pools, b, {&stretch.value[first], pools[b].count}, most_tilt);
     const double length = first == last ? 1 : way[last] - way[first];
     const bool upwards = b == 0 && stretch.starts_held;
-    const bool downwards = b + 1 == blocks.size() && stretch.ends_held;
-    const double mean = blocks[b].mean + (upwards ? tilt : downwards ? -tilt : 0);
+    const bool downwards = b + 1 == pools.size() && stretch.ends_held;
+    const double mean = pools[b].mean + (upwards ? tilt : downwards ? -tilt : 0);
     for (std::size_t i = first; i <= last; ++i) {
       const double share = 2 * (way[i] - way[first]) / length - 1;
       stretch.value[i] = stretch.sense * (mean + tilt * share);

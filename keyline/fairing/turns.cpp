@@ -6,6 +6,7 @@
 #include <span>
 
 #include "keyline/analysis/comb_figures.h"
+#include "keyline/fairing/pooled.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -25,37 +26,11 @@ double range_of(const DenseCurve& curve) {
   return *high - *low;
 }
 
-/// Cells of a stretch of the curve that have one mean curvature once it may only run one way.
-struct Pooled {
-  double sum = 0;  ///< of curvature over arc length
-  double width = 0;
-  std::size_t cells = 0;
-  double mean() const { return sum / width; }
-};
-
 /// A cell's mean curvature and its share of the length.
 struct Mean {
   double curvature = 0;
   double width = 0;
 };
-
-/// Curvatures as near as may be that run one way (+1 up, -1 down).
-///
-/// Source: [Barlow 1972], section 1.2 (pooling adjacent violators).
-std::vector<Pooled> pooled(const std::vector<Mean>& cells, double way) {
-  std::vector<Pooled> blocks;
-  for (const Mean& cell : cells) {
-    blocks.push_back({cell.curvature * cell.width, cell.width, 1});
-    while (blocks.size() > 1 && way * blocks.end()[-2].mean() >= way * blocks.back().mean()) {
-      const Pooled last = blocks.back();
-      blocks.pop_back();
-      blocks.back().sum += last.sum;
-      blocks.back().width += last.width;
-      blocks.back().cells += last.cells;
-    }
-  }
-  return blocks;
-}
 
 /// How far a curve departs sideways, from the middle of what it does about its chord, where these
 /// cells have one curvature: the difference integrated twice, in shares of the length.
@@ -89,9 +64,12 @@ double departure(const DenseCurve& curve, int a, int b, double way) {
   }
   double most = 0;
   std::size_t first = 0;
-  for (const Pooled& block : pooled(cells, way)) {
-    most = std::max(most, departure({&cells[first], block.cells}, block.mean()));
-    first += block.cells;
+  const double sign = way < 0 ? -1 : 1;
+  const auto risen = [&](std::size_t i) { return sign * cells[i].curvature; };
+  for (const Pool& pool :
+       pooled(cells.size(), risen, [&](std::size_t i) { return cells[i].width; })) {
+    most = std::max(most, departure({&cells[first], pool.count}, sign * pool.mean));
+    first += pool.count;
   }
   return most * curve.length;
 }
