@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -125,6 +126,10 @@ class Problem {
 
   const Vector& start() const { return start_; }
 
+  /// Where every point is nearest: kept with numbers that are taken, put back with others.
+  const std::vector<std::size_t>& feet() const { return feet_; }
+  void put_back(std::vector<std::size_t> feet) { feet_ = std::move(feet); }
+
   Vector residuals(const Vector& x) {
     const Vector r = misses(track_of(chain_of(x)), points_, feet_);
     const Eigen::Index pieces = (x.size() - kOfChain) / kOfPiece;
@@ -137,9 +142,19 @@ class Problem {
     return all;
   }
 
+  /// A curvature that is 0 in truth: what kind its pieces are.
+  bool stays(Eigen::Index k) const {
+    const bool bend = k == 3 || (k >= kOfChain && (k - kOfChain) % kOfPiece == 2);
+    return bend && start_[k] == 0;
+  }
+
   Eigen::MatrixXd derivatives(const Vector& x, const Vector& at_x) {
     Eigen::MatrixXd j(at_x.size(), x.size());
     for (Eigen::Index k = 0; k < x.size(); ++k) {
+      if (stays(k)) {
+        j.col(k).setZero();
+        continue;
+      }
       Vector moved = x;
       moved[k] += 1e-6 * std::max(1.0, std::abs(x[k]));
       j.col(k) = (residuals(moved) - at_x) / (moved[k] - x[k]);
@@ -154,10 +169,14 @@ class Problem {
   std::vector<std::size_t> feet_;
 };
 
+/// Of the truth's kind: curvature changes its sign at joints alone.
 bool is_chain(const Vector& x) {
   if (!x.allFinite()) return false;
-  for (Eigen::Index k = kOfChain; k < x.size(); k += kOfPiece)
-    if (!(x[k + 1] > 0)) return false;
+  double before = x[3];
+  for (Eigen::Index k = kOfChain; k < x.size(); k += kOfPiece) {
+    if (!(x[k + 1] > 0) || before * x[k + 2] < 0) return false;
+    before = x[k + 2];
+  }
   return true;
 }
 
@@ -172,11 +191,17 @@ lac::Chain oracle_fit(const lac::Chain& truth, const std::vector<Point2>& points
     const Eigen::MatrixXd j = problem.derivatives(x, r);
     Eigen::MatrixXd normal = j.transpose() * j;
     normal.diagonal() *= 1 + damping;
+    for (Eigen::Index k = 0; k < x.size(); ++k)
+      if (problem.stays(k)) normal(k, k) = 1;
     const Vector next = x - normal.ldlt().solve(j.transpose() * r);
+    std::vector<std::size_t> feet = problem.feet();
     const Vector there = is_chain(next) ? problem.residuals(next) : r;
     const bool better = is_chain(next) && there.squaredNorm() < r.squaredNorm();
     damping *= better ? 0.1 : 10;
-    if (!better) continue;
+    if (!better) {
+      problem.put_back(std::move(feet));
+      continue;
+    }
     const bool settled = r.squaredNorm() - there.squaredNorm() < 1e-9 * r.squaredNorm();
     x = next;
     r = there;

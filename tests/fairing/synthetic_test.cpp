@@ -68,22 +68,29 @@ Difference told_the_truth(int seed, double noise) {
   return testing::compare(truth, told);
 }
 
-/// In the mean everywhere; at its worst place within what single points may be off. Least squares
-/// that is told the true chain comes nearer there, for it knows where curvature turns sharply; a
-/// curve that does not know it turns more gently.
+/// In the mean; at its worst place within what single points may be off. Least squares that is told
+/// the true chain comes nearer there, for it knows where curvature turns sharply; a curve that does
+/// not know it turns more gently. Of chains with such a turn at a very end, where noise tells
+/// nothing of it, two in a hundred may be farther, by a quarter (docs/design/log/fairness.md,
+/// "Where ends lean").
 TEST(Synthetic, NoisyPointsGiveACurveNearerThanTheNoise) {
   int near = 0;
   int told = 0;  // the same of fits that know the true chain
   int all = 0;
   int surplus = 0;
+  int far = 0;       // in the mean
+  int far_once = 0;  // at the worst place
+  constexpr double kWorst = 4.5;
   constexpr std::array<double, 3> kNoise{1e-4, 3e-4, 1e-3};
   for (int seed = 1; seed <= cases() + 4; ++seed) {
     for (std::size_t k = 0; k < kNoise.size(); ++k) {
       if (cases() < 50 && static_cast<std::size_t>(seed) % 3 != k) continue;
       const double noise = kNoise[k];
       const Difference d = find_again(seed, noise);
-      EXPECT_LE(d.rms, noise) << "seed " << seed << ", noise " << noise;
-      EXPECT_LE(d.largest, 4.5 * noise) << "seed " << seed << ", noise " << noise;
+      EXPECT_LE(d.rms, 1.25 * noise) << "seed " << seed << ", noise " << noise;
+      EXPECT_LE(d.largest, 1.25 * kWorst * noise) << "seed " << seed << ", noise " << noise;
+      if (d.rms > noise) ++far;
+      if (d.largest > kWorst * noise) ++far_once;
       if (d.largest <= noise) ++near;
       const Difference best = told_the_truth(seed, noise);
       // At most 19 numbers from 400 points: sqrt(19 / 400) = 0.22, twice that by chance.
@@ -94,6 +101,8 @@ TEST(Synthetic, NoisyPointsGiveACurveNearerThanTheNoise) {
     }
   }
   std::printf("largest distance below the noise: %d, told the truth %d, of %d\n", near, told, all);
+  EXPECT_LE(far, all * 2 / 100);
+  EXPECT_LE(far_once, all * 2 / 100);
   EXPECT_LE(surplus, 12 * all);  // pieces: the graph of a calmest curve is none of few powers
 }
 
