@@ -58,14 +58,19 @@ std::vector<JointContinuity> continuity(const std::vector<CurveView>& curves, bo
   return joints;
 }
 
-std::vector<JointContinuity> inner_continuity(const CurveView& curve,
-                                              const ContinuityTolerance& tolerance) {
-  std::vector<JointContinuity> joints;
-  const double length = ArcLengthTable(curve).length();
-  for (std::size_t i = 1; i + 1 < curve.breaks().size(); ++i) {
-    const double t = curve.breaks()[i];
-    joints.push_back(
-        joint_continuity(curve.jet_at(std::nextafter(t, 0.0)), curve.jet_at(t), length, tolerance));
+std::vector<InnerJoint> inner_continuity(const CurveView& curve,
+                                         const ContinuityTolerance& tolerance) {
+  std::vector<InnerJoint> joints;
+  const ArcLengthTable table(curve);
+  const auto& breaks = curve.breaks();
+  std::optional<double> before;  // where the piece before ends
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double t = breaks[i];
+    if (!(table.length_at(breaks[i + 1]) > table.length_at(t))) continue;
+    if (before)
+      joints.push_back({t, joint_continuity(curve.jet_at(std::nextafter(*before, 0.0)),
+                                            curve.jet_at(t), table.length(), tolerance)});
+    before = breaks[i + 1];
   }
   return joints;
 }

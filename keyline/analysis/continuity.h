@@ -70,9 +70,15 @@ JointContinuity joint_continuity(const curve::Jet2& end, const curve::Jet2& star
 std::vector<JointContinuity> continuity(const std::vector<CurveView>& curves, bool closed = false,
                                         const ContinuityTolerance& tolerance = {});
 
-/// One entry per breakpoint inside a curve.
-std::vector<JointContinuity> inner_continuity(const CurveView& curve,
-                                              const ContinuityTolerance& tolerance = {});
+struct InnerJoint {
+  double t = 0;  ///< the curve's parameter
+  JointContinuity joint;
+};
+
+/// One entry per breakpoint inside a curve; pieces of no length between two are none, so that their
+/// neighbours meet. Lengths are compared with the curve's.
+std::vector<InnerJoint> inner_continuity(const CurveView& curve,
+                                         const ContinuityTolerance& tolerance = {});
 
 template <curve::PlanarCurve C>
 std::vector<JointContinuity> continuity(const std::vector<C>& curves, bool closed = false,

@@ -225,6 +225,13 @@ std::string unit_in(const std::string& extension, const std::string& unit) {
   return document::millimetres(unit) > 0 ? "mm" : unit;
 }
 
+/// Formats whose numbers always have a unit; DXF and JSON can say that there is none.
+bool wants_unit(const std::string& extension) {
+  static const std::set<std::string> kWith = {".step", ".stp",  ".iges", ".igs",
+                                              ".svg",  ".svgz", ".pdf"};
+  return kWith.contains(extension);
+}
+
 Result<Written> format_in_unit(const Document& document, const std::string& extension,
                                const WriteOptions& options);
 
@@ -239,9 +246,7 @@ Result<Written> format_in_its_unit(const Document& document, const std::string& 
     const bool has_none = extension == ".csv" || extension == ".glif";
     if (written && has_none && !unit.empty())
       written->notes.push_back("unit of the numbers, which the format does not tell: " + unit);
-    const bool takes_mm =
-        unit.empty() && (extension.starts_with(".st") || extension.starts_with(".ig"));
-    if (written && takes_mm)
+    if (written && unit.empty() && wants_unit(extension))
       written->notes.emplace_back("no unit is given: the numbers are written as mm");
     return written;
   }

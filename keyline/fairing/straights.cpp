@@ -93,8 +93,21 @@ class Search {
     if (!curve_.closed && i == 0 && j == point_.size()) return true;
     const double size = length(i, j);
     const double around =
-        std::max(bend(at_[i] - kBeyond * size), bend(at_[j - 1] + kBeyond * size));
+        std::max(most_bend(at_[i], -kBeyond * size), most_bend(at_[j - 1], kBeyond * size));
     return around * size * size / 8 * curve_.length >= kLeastBow * noise_;
+  }
+
+  /// Curvature, times the length, at the end of the way from `t` by `by`, or what the curve has
+  /// turned by up to some place of the way, over all of it, if that is more: a fillet may be short.
+  double most_bend(double t, double by) const {
+    constexpr int kSteps = 64;
+    double most = std::abs(bend(t + by));
+    double turned = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      turned += bend(t + by * (i + 0.5) / kSteps) / kSteps;
+      most = std::max(most, std::abs(turned));
+    }
+    return most;
   }
 
   /// Curvature, times the length, at a share of the length; beyond the ends of an open curve none.
@@ -102,7 +115,7 @@ class Search {
     if (curve_.closed) t -= std::floor(t);
     if (t < 0 || t > 1) return 0;
     const auto next = std::upper_bound(curve_.at.begin(), curve_.at.end() - 1, t);
-    return std::abs(curve_.joints[next - curve_.at.begin()].curvature);
+    return curve_.joints[next - curve_.at.begin()].curvature;
   }
 
   void add(std::size_t i, std::size_t j) {

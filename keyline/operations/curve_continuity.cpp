@@ -2,6 +2,7 @@
 
 #include "keyline/document/cusped.h"
 #include "keyline/operations/joint.h"
+#include "keyline/operations/joints_inside.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/values.h"
 
@@ -26,54 +27,43 @@ struct ContinuityResult {
   std::vector<Joint> joints;
   Order order = Order::none;
   static constexpr auto describe() {
-    return core::fields(core::field<&ContinuityResult::joints>("one for each joint"),
-                        core::field<&ContinuityResult::order>("the least of them"));
+    return core::fields(
+        core::field<&ContinuityResult::joints>("one for each joint; curves of no length have none"),
+        core::field<&ContinuityResult::order>("the least of them"));
   }
 };
 
 /// What a curve is like where it begins and ends.
 struct Ends {
   curve::Jet2 start, end;
-  bool steep_start = false, steep_end = false;  ///< see is_steep
+  bool steep_start = false, steep_end = false;
   double length = 0;
 };
-
-/// Whether the rate of curvature is infinite at an end of a chain where curvature is 0, which its
-/// jet does not know: curvature^-alpha is linear in arc length.
-bool is_steep(const lac::Piece& piece, double here, double there) {
-  return here == 0 && there != 0 && piece.alpha < -1;
-}
 
 Ends ends_of(const document::PlanarCurve& c) {
   const document::Path path{{c}, false};
   const document::CuspedPath cusped(path);
   Ends ends{jet(cusped, 0), jet(cusped, 1)};
   ends.length = analysis::ArcLengthTable(analysis::view(cusped)).length();
-  if (const auto* chain = std::get_if<lac::Chain>(&c.value)) {
-    const lac::Piece &first = chain->pieces.front(), &last = chain->pieces.back();
-    ends.steep_start = is_steep(first, first.curvature_start, first.curvature_end);
-    ends.steep_end = is_steep(last, last.curvature_end, last.curvature_start);
-  }
+  ends.steep_start = is_steep_at_start(c);
+  ends.steep_end = is_steep_at_end(c);
   return ends;
 }
 
 analysis::JointContinuity joint_between(const Ends& before, const Ends& after,
                                         const analysis::ContinuityTolerance& tolerance) {
-  auto joint = analysis::joint_continuity(before.end, after.start,
-                                          std::min(before.length, after.length), tolerance);
-  if (before.steep_end || after.steep_start) {
-    joint.curvature_rate_jump = joint.relative_curvature_rate_jump = std::nullopt;
-    joint.order = std::min(joint.order, 2);
-  }
-  return joint;
+  const auto joint = analysis::joint_continuity(before.end, after.start,
+                                                std::min(before.length, after.length), tolerance);
+  return before.steep_end || after.steep_start ? without_rate(joint) : joint;
 }
 
 core::Result<ContinuityResult> run(const ContinuityRequest& request, const Context&) {
   std::vector<Ends> curves;
   for (const document::Path& path : request.curves)
     for (const auto& curve : path.curves) curves.push_back(ends_of(curve));
-  if (curves.size() < 2 && !request.closed)
-    return core::fail(core::ErrorCode::bad_input, "a joint needs two curves",
+  std::erase_if(curves, [](const Ends& ends) { return ends.length == 0; });
+  if (curves.empty() || (curves.size() < 2 && !request.closed))
+    return core::fail(core::ErrorCode::bad_input, "a joint needs two curves that have a length",
                       "give at least two curves, or \"closed\": true", "curves");
   ContinuityResult result;
   int least = 3;

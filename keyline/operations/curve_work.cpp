@@ -2,9 +2,11 @@
 
 #include "keyline/analysis/continuity.h"
 #include "keyline/analysis/profile.h"
+#include "keyline/document/cusped.h"
 #include "keyline/document/join.h"
 #include "keyline/document/planar_edit.h"
 #include "keyline/operations/ends.h"
+#include "keyline/operations/joints_inside.h"
 #include "keyline/operations/made_curve.h"
 #include "keyline/operations/registry.h"
 #include "keyline/operations/subject.h"
@@ -136,12 +138,11 @@ struct SplitResult {
 
 /// Parameters where the direction jumps, of one that comes back also 0 where it does at its start.
 std::vector<double> corners_of(const document::Path& path, bool comes_back) {
-  const analysis::CurveView view = analysis::view(path);
-  const auto joints = analysis::inner_continuity(view);
-  const auto breaks = document::breakpoints(path);
   std::vector<double> corners;
-  for (std::size_t i = 0; i < joints.size() && i + 2 < breaks.size(); ++i)
-    if (joints[i].order <= 0) corners.push_back(breaks[i + 1]);
+  for (const analysis::InnerJoint& inside : joints_inside(path))
+    if (inside.joint.order <= 0) corners.push_back(inside.t);
+  const document::CuspedPath cusped(path);
+  const analysis::CurveView view(cusped);
   if (comes_back && analysis::continuity(std::vector{view}, true).back().order <= 0)
     corners.push_back(0);
   return corners;

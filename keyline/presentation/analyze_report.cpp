@@ -9,6 +9,7 @@
 #include "keyline/core/text.h"
 #include "keyline/figure/curve_charts.h"
 #include "keyline/figure/ticks.h"
+#include "keyline/operations/joints_inside.h"
 #include "keyline/operations/sampled_comb.h"
 #include "keyline/presentation/curve_samples.h"
 #include "keyline/presentation/report_parts.h"
@@ -141,7 +142,7 @@ report::Section graph_section(const CurveAnalysis& a) {
 report::Section joint_section(const document::Path& path, const std::string& unit) {
   report::Section section{"Continuity where the curve's own pieces meet", {}, {}, {}};
   std::vector<report::JointRow> rows;
-  for (const auto& joint : analysis::inner_continuity(analysis::view(path))) {
+  for (const auto& [t, joint] : operations::joints_inside(path)) {
     const std::string at = fmt::format("({}, {})", figure::short_number(joint.position.x, 5),
                                        figure::short_number(joint.position.y, 5));
     rows.push_back(detail::joint_row(at, joint, unit));

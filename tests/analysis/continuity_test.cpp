@@ -99,8 +99,8 @@ TEST(Continuity, ClosedLoopsHaveOneJointMore) {
 TEST(Continuity, BreakpointsInsideACurve) {
   const auto joints = inner_continuity(view(testing::arcs({1, 2}, {1, 2})));
   ASSERT_EQ(joints.size(), 1u);
-  EXPECT_EQ(joints[0].order, 1);
-  EXPECT_NEAR(joints[0].curvature_jump.value(), 1, 1e-9);
+  EXPECT_EQ(joints[0].joint.order, 1);
+  EXPECT_NEAR(joints[0].joint.curvature_jump.value(), 1, 1e-9);
 }
 
 // Jumps are told beside the larger side, but no less than one over the size, and its square for the

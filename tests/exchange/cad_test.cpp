@@ -88,6 +88,17 @@ TEST_F(Cad, StepAndIgesReadBackToTheSameDoubles) {
   }
 }
 
+TEST_F(Cad, AUnitThatNobodyGaveIsTold) {
+  Document d = sample();
+  for (const char* extension : {".step", ".stp", ".iges", ".igs"}) {
+    d.unit = "";
+    const auto told = testing::Contains("no unit is given: the numbers are written as mm");
+    EXPECT_THAT(format_document(d, extension).value().notes, told) << extension;
+    d.unit = "in";
+    EXPECT_THAT(format_document(d, extension).value().notes, testing::Not(told)) << extension;
+  }
+}
+
 struct FileCase {
   const char* name;
   std::size_t curves;

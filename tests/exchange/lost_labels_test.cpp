@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,6 +47,26 @@ TEST(LostLabels, AreToldWhereAFileIsWritten) {
   d.paths = {arch({"roof", "", ""}, 0.25)};
   EXPECT_THAT(format_document(d, ".dxf").value().notes,
               testing::Contains("the format has no place for: widths of strokes"));
+}
+
+std::vector<std::string> notes_of(const Document& d, const std::string& extension) {
+  const auto written = format_document(d, extension);
+  if (!written) return {written.error().message};
+  return written->notes;
+}
+
+// Numbers without a unit get one where the format knows none without, and that is told.
+TEST(LostLabels, AUnitThatNobodyGaveIsTold) {
+  Document d;
+  d.paths = {arch({}, 0)};
+  const auto told = testing::Contains("no unit is given: the numbers are written as mm");
+  for (const char* extension : {".svg", ".svgz", ".pdf"})
+    EXPECT_THAT(notes_of(d, extension), told) << extension;
+  for (const char* extension : {".dxf", ".json", ".csv"})
+    EXPECT_THAT(notes_of(d, extension), testing::Not(told)) << extension;
+  d.unit = "mm";
+  for (const char* extension : {".svg", ".pdf"})
+    EXPECT_THAT(notes_of(d, extension), testing::Not(told)) << extension;
 }
 
 // Two curves of one name are two in a table, too, and those without any; a note says so.

@@ -152,21 +152,29 @@ TEST(SpaceRows, ScansInPtxAreRefusedByEveryReader) {
   const std::string text =
       "3\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n10 20 30 1\n"
       "0 0 0 0.5\n1 0.5 0 0.5\n2 0.8 0 0.5\n";
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("keyline-scan-" + std::to_string(::getpid()) + ".PTX");
-  std::ofstream(file) << text;
-  const auto curves = read_points(file);
-  const auto lattice = read_lattice(file);
-  const auto cloud = section_of_file(file, parse_section("z=0").value(), 1);
-  std::filesystem::remove(file);
-  ASSERT_FALSE(curves);
-  ASSERT_FALSE(lattice);
-  ASSERT_FALSE(cloud);
-  for (const core::Failure& failure : {curves.error(), lattice.error(), cloud.error()}) {
-    EXPECT_THAT(failure.message, HasSubstr("PTX"));
-    EXPECT_EQ(failure.path, file.string());
-    EXPECT_EQ(failure.hint, "convert it to PTS, XYZ or PLY");
+  for (const char* name : {"scan.PTX", "scan.xyz", "scan.txt"}) {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("keyline-" + std::to_string(::getpid()) + name);
+    std::ofstream(file) << text;
+    const auto curves = read_points(file);
+    const auto lattice = read_lattice(file);
+    const auto cloud = section_of_file(file, parse_section("z=0").value(), 1);
+    std::filesystem::remove(file);
+    ASSERT_FALSE(curves) << name;
+    ASSERT_FALSE(lattice) << name;
+    ASSERT_FALSE(cloud) << name;
+    for (const core::Failure& failure : {curves.error(), lattice.error(), cloud.error()}) {
+      EXPECT_THAT(failure.message, HasSubstr("PTX"));
+      EXPECT_EQ(failure.path, file.string());
+      EXPECT_EQ(failure.hint, "convert it to PTS, XYZ or PLY");
+    }
   }
+}
+
+// Counts and rows of three are the head of a PTX only with its matrix behind them.
+TEST(SpaceRows, PointsThatBeginLikeAPtxAreRead) {
+  std::istringstream in("3\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0\n0 1 0\n2 0 1\n3 0 1\n");
+  EXPECT_TRUE(read_points(in, "scan.xyz"));
 }
 
 }  // namespace

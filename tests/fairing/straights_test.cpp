@@ -129,14 +129,13 @@ TEST(StraightStretches, StandOutAgainstWhatIsAround) {
       straight_stretches(bent_line(1e-4, 0.1).curve, bent_line(1e-4, 0.1).points, 1e-4).empty());
 }
 
-// Between sharp bends the stretch is 0.40 to 0.42 long, so that 60 of noise are a curvature of 0.27
-// to 0.30 where a quarter of that lies beyond.
+// The stretch is 0.40 to 0.42 long, so that 60 of noise are a curvature of 0.27 to 0.30 beyond.
 TEST(StraightStretches, BowBySixtyTimesTheNoise) {
   for (const double size : {1.0, 10.0})
     for (const double around : {0.26, 0.31}) {
       Given g = bent_line(1e-4, 6);
       for (std::size_t i = 0; i < g.curve.at.size(); ++i)
-        if (std::abs(g.curve.at[i] - 0.5) > 0.25) g.curve.joints[i].curvature = around;
+        if (std::abs(g.curve.at[i] - 0.5) > 0.19) g.curve.joints[i].curvature = around;
       g.curve.length = size;
       for (FitPoint& p : g.points) p.position = {size * p.position.x, size * p.position.y};
       EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4 * size).size(), around > 0.3 ? 1U : 0U)
@@ -155,10 +154,32 @@ TEST(StraightStretches, AreFoundFarFromTheOriginToo) {
   EXPECT_EQ(far.at(0).last, near.at(0).last);
 }
 
-// Where a quarter of its length leads out of an open curve nothing is around, however bent its end.
-TEST(StraightStretches, BeyondTheEndsOfAnOpenCurveNothingIsBent) {
-  const Given weak = bent_line(1e-4, 6, 0.05, 0.05);
+/// The line between two arcs in a curve bent by `bend` where it is that far from the middle.
+Given bent_beyond(double from, double to, double bend) {
+  Given g = bent_line(1e-4, 6);
+  for (std::size_t i = 0; i < g.curve.at.size(); ++i) {
+    const double off = std::abs(g.curve.at[i] - 0.5);
+    g.curve.joints[i].curvature = off > from && off < to ? bend : 0;
+  }
+  return g;
+}
+
+// A fillet may end before a quarter of the length is gone: by 0.03 * 6 a curve turns as one that is
+// bent by 1.8 for a quarter of 0.4. By 0.03 * 0.5 it turns like one bent by 0.15, half of what
+// tells.
+TEST(StraightStretches, StandOutBesideShortFillets) {
+  const Given fillet = bent_beyond(0.21, 0.24, 6), weak = bent_beyond(0.21, 0.24, 0.5);
+  EXPECT_EQ(straight_stretches(fillet.curve, fillet.points, 1e-4).size(), 1U);
   EXPECT_TRUE(straight_stretches(weak.curve, weak.points, 1e-4).empty());
+}
+
+// Where a quarter of its length leads out of an open curve it counts by what it turns to its end,
+// from 0.05 on; beyond it nothing is bent.
+TEST(StraightStretches, BeyondTheEndsOfAnOpenCurveNothingIsBent) {
+  Given g = bent_line(1e-4, 6, 0.05, 0.05);
+  EXPECT_EQ(straight_stretches(g.curve, g.points, 1e-4).size(), 1U);
+  for (std::size_t i = 0; g.curve.at[i] <= 0.05; ++i) g.curve.joints[i].curvature = 0.2;
+  EXPECT_TRUE(straight_stretches(g.curve, g.points, 1e-4).empty());
   const Given strong = bent_line(1e-4, 6, 0.05, 0.5);
   EXPECT_EQ(straight_stretches(strong.curve, strong.points, 1e-4).size(), 1U);
 }

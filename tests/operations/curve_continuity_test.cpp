@@ -64,5 +64,18 @@ TEST(CurveContinuity, KnowsTheDirectionWhereManyHandlesAreDrawnIn) {
   EXPECT_NEAR(joint["angle"].get<double>(), std::acos(0.0), 1e-12);
 }
 
+// A curve of no length is none: what lies beside it meets.
+TEST(CurveContinuity, CurvesOfNoLengthAreNone) {
+  const json left{{"type", "polyline"}, {"points", {{-1, 0}, {0, 0}}}};
+  const json right{{"type", "polyline"}, {"points", {{0, 0}, {2, 0}}}};
+  const json dot{{"type", "bezier"}, {"points", {{0, 0}, {0, 0}, {0, 0}}}};
+  const auto found =
+      perform("curve.continuity", {{"curves", json::array({left, dot, right})}}, {}).value();
+  ASSERT_EQ(found["joints"].size(), 1u);
+  EXPECT_EQ(found["order"], "G3");
+  EXPECT_FALSE(perform("curve.continuity", {{"curves", json::array({left, dot})}}, {}));
+  EXPECT_FALSE(perform("curve.continuity", {{"curves", json::array({dot})}, {"closed", true}}, {}));
+}
+
 }  // namespace
 }  // namespace keyline::operations

@@ -32,12 +32,12 @@ class TextPoints {
       : lines_(in, name, std::size_t{1} << 20), name_(name), take_(take) {}
 
   Result<StreamedPoints> read() {
-    if (auto sound = detail::check_kind(name_); !sound) return std::unexpected(sound.error());
     while (true) {
       bool end = false;
       const auto line = lines_.next(end);
       if (!line) return std::unexpected(line.error());
       if (end) break;
+      if (auto sound = kind_.take(*line, name_); !sound) return std::unexpected(sound.error());
       if (auto done = point(detail::trimmed_in_front(*line)); !done)
         return std::unexpected(done.error());
     }
@@ -112,6 +112,7 @@ class TextPoints {
   LineReader lines_;
   const std::string& name_;
   const Take& take_;
+  detail::PointsKind kind_;
   detail::SpaceRows rows_{{}};
   std::optional<core::Failure> remark_;  ///< of the first line of text behind points
   std::size_t missing_ = 0;

@@ -94,8 +94,8 @@ core::Result<core::Point3> point_of(detail::SpaceRows& rows, std::string_view li
 
 core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name,
                                        const PointsOptions& options) {
-  if (auto sound = detail::check_kind(name); !sound) return std::unexpected(sound.error());
   LineReader lines(in, name, options.longest_line);
+  detail::PointsKind kind;
   detail::SpaceRows rows(options);
   std::vector<core::Point3> points;
   std::vector<std::size_t> lengths;
@@ -106,6 +106,7 @@ core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name
     const auto read = lines.next(end);
     if (!read) return std::unexpected(read.error());
     if (end) break;
+    if (auto sound = kind.take(*read, name); !sound) return std::unexpected(sound.error());
     const std::string_view line = detail::trimmed(*read);
     blank = blank || line.empty();
     if (line.empty() || (rows.started() && detail::is_comment(line))) continue;

@@ -13,14 +13,15 @@ namespace {
 
 core::Result<PointsFile> read(std::istream& in, const std::string& name,
                               const PointsOptions& options) {
-  if (auto sound = detail::check_kind(name); !sound) return std::unexpected(sound.error());
   LineReader lines(in, name, options.longest_line);
   detail::PointsTable table(options);
+  detail::PointsKind kind;
   while (true) {
     bool end = false;
     const auto line = lines.next(end);
     if (!line) return std::unexpected(line.error());
     if (end) break;
+    if (auto sound = kind.take(*line, name); !sound) return std::unexpected(sound.error());
     if (auto taken = table.take(*line, lines.number(), lines.place()); !taken) {
       return std::unexpected(taken.error());
     }
