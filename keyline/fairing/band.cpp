@@ -10,6 +10,7 @@ constexpr double kBoundary = 0.995;  // share of the way to zero that a multipli
 constexpr double kKept = 0.001;      // least share of its slack that a point keeps in a step
 constexpr double kFirstRoom = 0.5;   // of the tolerance: least slack at the start
 constexpr double kCentred = 1e4;     // products of slack and multiplier stay this near the barrier
+constexpr double kHeld = 1e4;        // weight of points to be passed, in squared tolerances
 
 }  // namespace
 
@@ -75,8 +76,20 @@ bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>&
   return true;
 }
 
+bool all_passed(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
+                double tolerance) {
+  for (std::size_t j = 0; j < points.size(); ++j)
+    if (points[j].must_pass && std::abs(offsets[j]) > kPassed * tolerance * points[j].share)
+      return false;
+  return true;
+}
+
 Band::Band(const std::vector<FitPoint>& points, double tolerance, double spring)
-    : points_(points), tolerance_(tolerance), spring_(mean_weights(points)), pair_(points.size()) {
+    : points_(points),
+      tolerance_(tolerance),
+      spring_(mean_weights(points)),
+      pair_(points.size()),
+      force_(points.size()) {
   for (std::size_t j = 0; j < points.size(); ++j) spring_[j] *= points[j].pull * spring;
 }
 
@@ -91,6 +104,10 @@ double Band::room_low(std::size_t j, double offset) const {
 }
 
 Pull Band::pull(std::size_t j) const {
+  if (points_[j].must_pass) {
+    const double weight = kHeld / (tolerance_ * tolerance_), share = points_[j].share;
+    return {weight / (share * share), (weight * missed(j, offset_[j]) + force_[j]) / share};
+  }
   const auto& [high, low] = pair_[j];
   const double up = room_high(j, offset_[j]) + high.extra;
   const double down = room_low(j, offset_[j]) + low.extra;
@@ -103,7 +120,9 @@ void Band::start(const std::vector<double>& offsets, double barrier) {
   offset_ = offsets;
   barrier_ = barrier;
   const double least = kFirstRoom * tolerance_;
+  std::ranges::fill(force_, 0);
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) continue;
     auto& [high, low] = pair_[j];
     const double up = room_high(j, offsets[j]);
     const double down = room_low(j, offsets[j]);
@@ -118,6 +137,7 @@ void Band::start(const std::vector<double>& offsets, double barrier) {
 
 bool Band::allows(const std::vector<double>& offsets, double share) const {
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) continue;
     const auto& [high, low] = pair_[j];
     const double up = room_high(j, offsets[j]) + (1 - share) * high.extra;
     const double down = room_low(j, offsets[j]) + (1 - share) * low.extra;
@@ -130,6 +150,7 @@ bool Band::allows(const std::vector<double>& offsets, double share) const {
 double Band::longest(const std::vector<double>& meant) const {
   double share = 1;
   for (std::size_t j = 0; j < meant.size(); ++j) {
+    if (points_[j].must_pass) continue;
     const auto& [high, low] = pair_[j];
     const double up = room_high(j, offset_[j]) + high.extra;
     const double down = room_low(j, offset_[j]) + low.extra;
@@ -145,7 +166,13 @@ double Band::merit(const std::vector<double>& offsets, double share) const {
   double logs = 0;
   double extra = 0;
   double springs = 0;
+  double held = 0;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) {
+      const double off = missed(j, offsets[j]);
+      held += 0.5 * kHeld * std::pow(off / tolerance_, 2) + force_[j] * off;
+      continue;
+    }
     const auto& [high, low] = pair_[j];
     const double up = room_high(j, offsets[j]) + (1 - share) * high.extra;
     const double down = room_low(j, offsets[j]) + (1 - share) * low.extra;
@@ -153,7 +180,7 @@ double Band::merit(const std::vector<double>& offsets, double share) const {
     logs += std::log(up / tolerance_ * down / tolerance_);
     extra += high.extra + low.extra;
   }
-  return price_ * (1 - share) * extra - barrier_ * logs + 0.5 * springs;
+  return price_ * (1 - share) * extra - barrier_ * logs + 0.5 * springs + held;
 }
 
 void Band::move(const std::vector<double>& offsets, const std::vector<double>& meant,
@@ -162,6 +189,11 @@ void Band::move(const std::vector<double>& offsets, const std::vector<double>& m
   std::vector<double> by_low(offsets.size());
   double dual = 1;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) {
+      const double left = missed(j, offset_[j] + meant[j]);
+      force_[j] += share * kHeld / (tolerance_ * tolerance_) * left;
+      continue;
+    }
     const auto& [high, low] = pair_[j];
     const double up = room_high(j, offset_[j]) + high.extra;
     const double down = room_low(j, offset_[j]) + low.extra;
@@ -172,6 +204,7 @@ void Band::move(const std::vector<double>& offsets, const std::vector<double>& m
   }
   offset_ = offsets;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) continue;
     auto& [high, low] = pair_[j];
     high.extra *= 1 - share;
     low.extra *= 1 - share;
@@ -193,6 +226,7 @@ void Band::rest(const std::vector<double>& offsets) {
       side.extra = std::max(side.extra, std::min(before + side.extra, enough) - room);
   };
   for (std::size_t j = 0; j < offsets.size(); ++j) {
+    if (points_[j].must_pass) continue;
     auto& [high, low] = pair_[j];
     widen(high, room_high(j, offset_[j]), room_high(j, offsets[j]));
     widen(low, room_low(j, offset_[j]), room_low(j, offsets[j]));
@@ -203,6 +237,7 @@ void Band::rest(const std::vector<double>& offsets) {
 void Band::rescale(double by) {
   price_ *= by;
   for (double& w : spring_) w *= by;
+  for (double& f : force_) f *= by;
   for (auto& [high, low] : pair_) {
     high.multiplier *= by;
     low.multiplier *= by;
@@ -218,6 +253,10 @@ void Band::set_price() {
 double Band::extra() const {
   double most = 0;
   for (const auto& [high, low] : pair_) most = std::max({most, high.extra, low.extra});
+  for (std::size_t j = 0; j < points_.size(); ++j) {
+    const double off = points_[j].must_pass ? std::abs(missed(j, offset_[j])) : 0;
+    if (off > kPassed * tolerance_) most = std::max(most, off);
+  }
   return most;
 }
 

@@ -45,6 +45,13 @@ double largest_of(const std::vector<FitPoint>& points, const std::vector<double>
 bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
                  double slack);
 
+/// What a point to be passed may be off by, in tolerances.
+inline constexpr double kPassed = 1e-3;
+
+/// Whether the points to be passed are.
+bool all_passed(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
+                double tolerance);
+
 /// Root of the mean square of the measured points' offsets.
 double root_mean_square(const std::vector<double>& mean_weights,
                         const std::vector<double>& offsets);
@@ -69,9 +76,10 @@ class Springs : public Limits {
 /// Slacks and multipliers of offset + high <= tolerance and -offset - low <= tolerance, a pair a
 /// point, and of the limits that a point has of its own. A first curve need not keep to them: what
 /// a limit is passed by counts as extra width, which every step of Newton's takes back as far as it
-/// goes (an infeasible interior point).
+/// goes (an infeasible interior point). Points to be passed have no limits but a weight and a
+/// multiplier (an augmented Lagrangian): between limits so close a step could not bend.
 ///
-/// Source: [Wright 1997], chapters 1 and 6.
+/// Source: [Wright 1997], chapters 1 and 6; [Nocedal 2006], section 17.3.
 class Band : public Limits {
  public:
   /// spring: also half that weight times the mean square of all offsets, in the merit's unit.
@@ -94,7 +102,7 @@ class Band : public Limits {
 
   void set_barrier(double barrier) { barrier_ = barrier; }
   double barrier() const { return barrier_; }
-  /// Largest extra width left.
+  /// Largest extra width left, or offset of a point that is not passed yet.
   double extra() const;
 
  private:
@@ -107,6 +115,8 @@ class Band : public Limits {
     Side high;
     Side low;
   };
+  /// The offset of a point to be passed, whatever its share.
+  double missed(std::size_t j, double offset) const { return offset / points_[j].share; }
   double room_high(std::size_t j, double offset) const;
   double room_low(std::size_t j, double offset) const;
 
@@ -117,6 +127,7 @@ class Band : public Limits {
   double price_ = 0;
   std::vector<double> offset_;
   std::vector<Pair> pair_;
+  std::vector<double> force_;  ///< multipliers of points to be passed
 };
 
 }  // namespace keyline::fairing::detail

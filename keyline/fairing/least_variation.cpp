@@ -88,7 +88,8 @@ class Search {
     report.rms = root_mean_square(mean_weight_, spots_.offset);
     report.spring = spring_;
     report.within = report.max_offset <= options_.tolerance && closed_enough() &&
-                    limits_kept(points_, spots_.offset, kExtra * unit_);
+                    limits_kept(points_, spots_.offset, kExtra * unit_) &&
+                    all_passed(points_, spots_.offset, unit_);
     return report;
   }
 

@@ -8,6 +8,7 @@
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/concept.h"
+#include "keyline/fairing/band.h"
 #include "keyline/fairing/calm_run.h"
 #include "keyline/fairing/condense.h"
 #include "keyline/fairing/exact_chain.h"
@@ -31,7 +32,6 @@ constexpr int kTightenings = 5;
 constexpr double kRateShare = 0.999;  // of a limit on rates: the rest is for what closes the chain
 constexpr double kFar = 1.3;          // of the tolerance: farther off is no matter of rounding
 constexpr double kHeights = 16;       // turn times length over an arc's height over a line, twice
-constexpr double kPassed = 1e3;       // a point to be passed is off by so much less than others may
 
 /// Whether nothing is asked of a run but to pass its points.
 bool is_plain(const Run& run, const RunOptions& options) {
@@ -112,8 +112,11 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   auto arc = calm_arc(result, run, options, tolerance, residuals);
   std::vector<FitPoint> measured = result.points;
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
-  for (FitPoint& p : result.points)
-    if (p.must_pass) p.share = kPassed;
+  std::vector<double> weights;
+  for (FitPoint& p : result.points) {
+    weights.push_back(p.weight);
+    if (p.must_pass) p.weight = 1;
+  }
   CalmRunOptions calm;
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
@@ -130,6 +133,10 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.threads = options.threads;
   calm.members = members_of(result, run, frame);
   CalmRun found = solve_calm(result.points, run.closed, calm);
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    result.points[j].weight = weights[j];
+    if (result.points[j].must_pass) result.points[j].share = 1 / kPassed;
+  }
   // Between sparse points the solver may end at bends that no point asks for.
   if (arc && found.curve.alpha.size() > 1)
     return take_arc(result, std::move(*arc), std::move(measured));

@@ -38,6 +38,55 @@ TEST(Band, PullsAsItsMeritRises) {
   }
 }
 
+// A point to be passed has no limits: its weight and slope are its merit's, whatever its share.
+TEST(Band, PointsToBePassedPullAsTheirMeritRises) {
+  for (const double share : {1.0, 20.0}) {
+    auto given = points(1);
+    given[0].must_pass = true;
+    given[0].share = share;
+    Band band(given, 0.5, 0);
+    const double off = 0.02 * share, h = 1e-4 * share;
+    band.start({off}, 0.2);
+    EXPECT_NEAR(band.extra(), 0.02, 1e-15);
+    band.move({off}, {-0.5 * off}, 1);  // half of its way is meant: the rest becomes a force
+    const double up = band.merit({off + h}, 0), down = band.merit({off - h}, 0);
+    EXPECT_NEAR(band.pull(0).slope, (up - down) / (2 * h), 1e-6 * band.pull(0).slope) << share;
+    const double bend = (up - 2 * band.merit({off}, 0) + down) / (h * h);
+    EXPECT_NEAR(band.pull(0).weight, bend, 1e-6 * bend) << share;
+    EXPECT_TRUE(band.allows({1e3 * share}, 1));
+    EXPECT_EQ(band.longest({1e3 * share}), 1);
+  }
+}
+
+// Beside an energy of 3 / 2 (x - 0.4)^2 it is passed all the same, by a force of 1.2.
+TEST(Band, PointsToBePassedArePassed) {
+  auto given = points(1);
+  given[0].must_pass = true;
+  Band band(given, 0.01, 0);
+  double x = 0.3;
+  band.start({x}, 0.2);
+  for (int i = 0; i < 4; ++i) {
+    const Pull pull = band.pull(0);
+    const double by = -(3 * (x - 0.4) + pull.slope) / (3 + pull.weight);
+    x += by;
+    band.move({x}, {by}, 1);
+  }
+  EXPECT_NEAR(x, 0, 1e-12);
+  EXPECT_NEAR(band.pull(0).slope, 1.2, 1e-6);
+  EXPECT_EQ(band.extra(), 0);
+  band.rescale(10);
+  EXPECT_NEAR(band.pull(0).slope, 12, 1e-5);
+}
+
+TEST(Band, PointsArePassedToAThousandthOfTheTolerance) {
+  auto given = points(2);
+  given[1].must_pass = true;
+  EXPECT_TRUE(all_passed(given, {0.9, 0.00099}, 1));
+  EXPECT_FALSE(all_passed(given, {0, -0.00101}, 1));
+  given[1].share = 100;
+  EXPECT_TRUE(all_passed(given, {0, 0.099}, 1));
+}
+
 // A run's highest offset keeps to the one limit, its lowest to the other; a point may have nearer
 // ones of its own.
 TEST(Band, LimitsAreCountedFromARunsEnds) {
