@@ -98,6 +98,15 @@ std::vector<FitPoint> with_watchers(const std::vector<FitPoint>& points, bool cl
   return result;
 }
 
+void draw_ends_inside(std::vector<FitPoint>& points, std::span<const core::HalfPlane> inside,
+                      double tolerance) {
+  for (FitPoint* end : {&points.front(), &points.back()})
+    for (const core::HalfPlane& half : inside) {
+      const double by = -core::depth(half, end->position);
+      if (by > 0 && by <= tolerance) end->position = end->position + by * half.normal;
+    }
+}
+
 void limit_offsets(std::vector<FitPoint>& points, bool closed,
                    std::span<const core::HalfPlane> inside, std::span<const double> margin,
                    std::span<const core::Point2> held) {

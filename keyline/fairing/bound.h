@@ -43,6 +43,11 @@ namespace detail {
 std::vector<FitPoint> with_watchers(const std::vector<FitPoint>& points, bool closed,
                                     std::span<const core::HalfPlane> inside, double tolerance);
 
+/// Ends of an open run that lie outside by no more than the tolerance stand on the border: where
+/// the curve comes to it, it ends a little earlier, and need not go sideways.
+void draw_ends_inside(std::vector<FitPoint>& points, std::span<const core::HalfPlane> inside,
+                      double tolerance);
+
 /// Limits to the points' offsets that leave the curve inside. Nothing where the curve stands square
 /// to a border: there its ends count.
 ///

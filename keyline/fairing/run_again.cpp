@@ -114,7 +114,9 @@ std::vector<double> passed(const lac::Chain& chain, const Run& run) {
 
 void watch_borders(RunResult& result, const Run& run, double tolerance) {
   if (run.inside.empty()) return;
-  result.points = with_watchers(result.points, run.closed, canonical(result, run), tolerance);
+  const std::vector<core::HalfPlane> inside = canonical(result, run);
+  if (!run.closed) draw_ends_inside(result.points, inside, tolerance);
+  result.points = with_watchers(result.points, run.closed, inside, tolerance);
   limit_to(result, run);
 }
 

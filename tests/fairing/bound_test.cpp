@@ -156,6 +156,23 @@ TEST(LimitOffsets, GiveWayBesideHeldEnds) {
   EXPECT_NEAR(points[3].highest, 0.2 - 0.12, 1e-15);
 }
 
+// By no more than the tolerance, and to the border alone; inner points stay where they were
+// measured.
+TEST(DrawEndsInside, EndsThatLieOutsideStandOnTheBorder) {
+  const std::vector<HalfPlane> inside{{{0, 1}, 0.5}, {{-1, 0}, -3}};
+  std::vector<FitPoint> points(4);
+  points[0].position = {0, 0.45};
+  points[1].position = {1, 0.44};
+  points[2].position = {2, 0.9};
+  points[3].position = {3.06, 0.42};
+  draw_ends_inside(points, inside, 0.07);
+  EXPECT_EQ(points[0].position, (Point2{0, 0.5}));
+  EXPECT_EQ(points[1].position, (Point2{1, 0.44}));
+  EXPECT_EQ(points[2].position, (Point2{2, 0.9}));
+  EXPECT_NEAR(points[3].position.x, 3, 1e-15);
+  EXPECT_NEAR(points[3].position.y, 0.42, 1e-15);  // 0.08 outside: too far to be an error
+}
+
 // A circle of radius 1 about (0, 1) dips by exactly its radius' rest below y = 0.25.
 TEST(Outside, IsHowFarAnArcDips) {
   const double pi = std::numbers::pi;

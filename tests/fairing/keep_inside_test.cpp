@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "keyline/core/angle.h"
 #include "keyline/core/similarity.h"
 #include "keyline/curve/concept.h"
 #include "keyline/fairing/fair.h"
+#include "keyline/numeric/random.h"
 
 #include "truth.h"
 
@@ -57,6 +59,34 @@ TEST(KeepInside, EndsThatStandOnTheBorderStayThere) {
   const FairResult result = fair(waterline(), options).value();
   EXPECT_NEAR(std::visit([](const auto& c) { return evaluate(c, 0).y; }, result.curves.front()), 0,
               1e-9);
+}
+
+// Measured ends lie on either side of the border that the curve ends at, square to it or slanting.
+TEST(KeepInside, EndsThatErrOverTheBorderCostNoCalm) {
+  const auto half = [](std::uint64_t seed, bool lens) {
+    numeric::Random random(seed);
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 30; ++i) {
+      const double t = core::kPi * i / 29, x = 3 * std::cos(t);
+      points.push_back({x + 0.002 * random.normal(),
+                        (lens ? 1 - x * x / 9 : std::sin(t)) + 0.002 * random.normal()});
+    }
+    points.front().y = -0.004;
+    return points;
+  };
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    for (const bool lens : {false, true}) {
+      FairOptions options;
+      const auto points = half(seed, lens);
+      const FairResult free = fair(line_through(points), options).value();
+      options.keep_inside = {{Axis::y, 0.0, {}}};
+      const FairResult result = fair(line_through(points), options).value();
+      EXPECT_FALSE(result.calm_missed) << seed << lens;
+      EXPECT_TRUE(result.within_tolerance) << seed << lens;
+      EXPECT_GE(lowest(result), -1e-9 * result.length) << seed << lens;
+      EXPECT_LE(result.fairness.answer.energy, 3 * free.fairness.answer.energy + 10)
+          << seed << lens;
+    }
 }
 
 TEST(KeepInside, HoldsFromEverySide) {
