@@ -223,7 +223,7 @@ std::optional<curve::CurvatureGraph> smoothest(std::span<const core::Point2> poi
 
 std::optional<curve::CurvatureGraph> smoothing_spline_curvature(
     std::span<const core::Point2> points, bool closed, double tolerance, int threads) {
-  if (points.size() < 8) return std::nullopt;
+  if (points.size() < 3) return std::nullopt;
   std::array<std::optional<curve::CurvatureGraph>, kPowers.size()> all;
   numeric::parallel_for(all.size(), threads, [&](std::size_t i) {
     all[i] = smoothest(points, closed, tolerance, kPowers[i]);

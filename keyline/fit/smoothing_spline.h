@@ -15,8 +15,8 @@ namespace keyline::fit {
 /// third differences of its coefficients (a P-spline), the largest penalty that keeps the tolerance
 /// found by bisection of its logarithm; once each over chord lengths, their roots and the points'
 /// numbers, and of the three the one of least variation of curvature. Returns: nothing for fewer
-/// than eight points, points of no extent, or where no penalty keeps the
-///          tolerance.
+/// than three points (through three goes a parabola, which no penalty counts), points of no extent,
+/// or where no penalty keeps the tolerance.
 /// Source: [Eilers 1996], penalised B-splines: many knots, and differences of the coefficients
 ///         kept small.
 std::optional<curve::CurvatureGraph> smoothing_spline_curvature(

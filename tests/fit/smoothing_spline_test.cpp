@@ -68,10 +68,25 @@ TEST(SmoothingSpline, FollowsATightNose) {
   EXPECT_NEAR(largest(*graph), 75, 5);  // a / b^2
 }
 
+// A quarter of the unit circle: three points say little more than that it is bent.
+TEST(SmoothingSpline, OfFewPointsIsBentAsTheyAre) {
+  for (const int n : {3, 4, 5, 7}) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i < n; ++i) {
+      const double t = std::numbers::pi / 2 * i / (n - 1);
+      points.push_back({std::cos(t), std::sin(t)});
+    }
+    const auto graph = smoothing_spline_curvature(points, false, 1e-4);
+    ASSERT_TRUE(graph) << n;
+    EXPECT_NEAR(graph->arc_length.back(), std::numbers::pi / 2, n < 5 ? 0.03 : 1e-3) << n;
+    EXPECT_NEAR(largest(*graph), 1, n < 5 ? 0.6 : 0.1) << n;
+  }
+}
+
 TEST(SmoothingSpline, RefusesWhatHasNone) {
   const std::vector<core::Point2> one(20, {1, 2});
   EXPECT_FALSE(smoothing_spline_curvature(one, false, 1e-3));
-  EXPECT_FALSE(smoothing_spline_curvature(ellipse(5, 1, 0), false, 1e-3));
+  EXPECT_FALSE(smoothing_spline_curvature(std::vector<core::Point2>{{0, 0}, {1, 1}}, false, 1e-3));
 }
 
 }  // namespace
