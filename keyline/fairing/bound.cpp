@@ -53,6 +53,8 @@ constexpr double kAtEnd = 0.01;  // of the length: the end is held, not merely n
 constexpr std::array kBesideEnd{0.001, 0.01, 0.05};
 constexpr int kWatchers = 5;  // between neighbours: a bend between them shows at one of these
 constexpr int kSamples = 48;  // of a piece, before the deepest is looked for
+constexpr double kRounding =
+    1e-12;  // of the length: a place so little outside stands on the border
 // Steps that look for the deepest, each of which leaves two thirds: 3e-11 of where they began.
 constexpr int kThirds = 60;
 
@@ -153,7 +155,7 @@ double outside(const lac::Chain& chain, const core::HalfPlane& half) {
     }
     least = std::min({least, depth[deepest], depth_at(0.5 * (low + high))});
   }
-  return -least;
+  return -least > kRounding * lac::arc_length(chain) ? -least : 0;
 }
 
 }  // namespace detail

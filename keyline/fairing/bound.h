@@ -57,7 +57,7 @@ void limit_offsets(std::vector<FitPoint>& points, bool closed,
                    std::span<const core::HalfPlane> inside, std::span<const double> margin,
                    std::span<const core::Point2> held);
 
-/// The most that the chain passes the half-plane's border by; 0 where it stays inside.
+/// The most that the chain passes the half-plane's border by; 0 where it stays inside, to rounding.
 double outside(const lac::Chain& chain, const core::HalfPlane& half);
 
 }  // namespace detail

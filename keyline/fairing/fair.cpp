@@ -35,7 +35,6 @@ using Splines = std::vector<curve::BSpline2>;
 
 constexpr double kPlainShare = 0.6;  // of the time, where a symmetric answer is looked for too
 constexpr double kAlike = 0.98;      // of a limit: as good as on it
-constexpr double kOutside = 1e-9;    // of the length: farther out is no matter of rounding
 
 /// The whole of one key-line.
 class Job {
@@ -312,10 +311,8 @@ class Job {
     for (std::size_t k = 0; k < runs_.size(); ++k)
       for (const core::HalfPlane& half : runs_[k].inside)
         result_.outside = std::max(result_.outside, detail::outside(solved_[k].chain, half));
-    if (result_.outside > kOutside * size_)
+    if (result_.outside > 0)
       result_.notes.push_back(fmt::format("a bound is passed by {:.3g}", result_.outside));
-    else
-      result_.outside = 0;
   }
 
   /// Pieces, offsets and the deviation from the solved runs as they stand.

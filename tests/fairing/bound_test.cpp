@@ -183,6 +183,13 @@ TEST(Outside, IsHowFarAnArcDips) {
   EXPECT_NEAR(outside(circle, {{0, -1}, -1.9}), 0.1, 1e-12);
 }
 
+// A line of length 2 that ends a hair outside stands on the border; farther out it does not.
+TEST(Outside, IsNoMatterOfRounding) {
+  const lac::Chain line{{{0, 1}, -std::numbers::pi / 2}, {{-1, 2, 0, 0}}, false};
+  EXPECT_EQ(outside(line, {{0, 1}, -1 + 1e-12}), 0);
+  EXPECT_NEAR(outside(line, {{0, 1}, -1 + 1e-11}), 1e-11, 1e-14);
+}
+
 // Lowest at an end, where no place inside is.
 TEST(Outside, CountsEndsToo) {
   const lac::Chain line{{{0, 1}, -0.5}, {{-1, 4, 0, 0}}, false};
