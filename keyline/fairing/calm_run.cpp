@@ -35,9 +35,10 @@ constexpr int kStiffenings = 3;   // of the springs, until the mean square is as
 constexpr double kStiffest = 64;  // times at once
 constexpr double kSpringAim = 0.99;  // of that mean square's root: a hair above it is not below
 constexpr int kPulls = 6;  // sixty-four times as strong: what leans then, other limits hold
-constexpr double kFirstLoss = 1.6;  // what cutting may lose at first, in energies: solved for
-                                    // again, pieces win most of it back; halved so many times,
-constexpr int kRefinements = 10;    // which leaves bows of a tenth of the tolerance
+constexpr double kFirstLoss = 1.6;    // what cutting may lose at first, in energies: solved for
+                                      // again, pieces win most of it back; halved so many times,
+constexpr int kRefinements = 10;      // which leaves bows of a tenth of the tolerance
+constexpr double kLeastApart = 1e-6;  // of that least loss, where pieces leave a gap
 constexpr double kLeastRefinement = 0.1;  // of a loss at once, where offsets are far too large
 
 void put_end(DenseCurve& curve, const HeldEnd& end, bool at_start) {
@@ -106,9 +107,10 @@ void choose_pieces(CalmRun& run, double room, const std::vector<FitPoint>& point
   const double least = std::ldexp(kFirstLoss, -kRefinements);
   PieceChoice choice(run, seen_waves(run.curve));
   double finer = 0.5;
+  bool apart = false;  // too few to meet what is held at both ends, near as they are to the points
   std::vector<int> last;
   int most = static_cast<int>(run.curve.joints.size());
-  for (double loss = kFirstLoss; loss >= least; loss *= finer) {
+  for (double loss = kFirstLoss; loss >= (apart ? kLeastApart * least : least); loss *= finer) {
     std::vector<int> count = graph.within(loss, most);
     if (count == last) continue;
     DenseCurve trial = graph.cut_by(count);
@@ -116,6 +118,7 @@ void choose_pieces(CalmRun& run, double room, const std::vector<FitPoint>& point
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
     const BandReport found = solve_pieces(trial, points, band, most_rms, most_energy);
+    apart = !found.within && found.max_offset <= options.tolerance;
     const double lost = found.energy / most_energy;
     choice.offer(trial, found, std::max(lost, found.rms > 0 ? found.rms / most_rms : 0));
     if (options.progress.stop_requested() || choice.done()) return;

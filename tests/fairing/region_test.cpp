@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -44,6 +45,40 @@ TEST(Region, OfAClosedOutlineKeepsTheRest) {
     for (const auto& joint : result.joints) {
       EXPECT_LE(joint.gap, 1e-9 * result.length) << region.low;
       EXPECT_LE(std::abs(joint.angle), 1e-6) << region.low;
+    }
+  }
+}
+
+/// Points along a curve whose curvature is a + b s + c s^2, of length 1.
+acquire::KeyLine bent(double a, double b, double c) {
+  constexpr int kPoints = 20, kSteps = 200;
+  std::vector<core::Point2> points{{0, 0}};
+  const auto direction = [&](double s) { return a * s + b * s * s / 2 + c * s * s * s / 3; };
+  for (int i = 1; i < kPoints; ++i) {
+    core::Point2 at = points.back();
+    for (int k = 0; k < kSteps; ++k) {
+      const double s = (i - 1 + (k + 0.5) / kSteps) / (kPoints - 1);
+      at = at + 1.0 / kSteps / (kPoints - 1) * core::unit_vector(direction(s));
+    }
+    points.push_back(at);
+  }
+  return testing::line_through(points);
+}
+
+/// Where two or three pieces would do, more of them meet what stays at both ends with equal
+/// curvature: the answer is the calmest still, and as near as the spline that stays.
+TEST(Region, OfFewPiecesMeetsTheRest) {
+  FairOptions options;
+  options.region = core::Interval{0.3, 0.7};
+  for (const auto& [a, b, c] :
+       std::vector<std::array<double, 3>>{{1, 1, 0.5}, {2, 1, 1}, {-1, 2, -0.5}, {1, 2, 3}}) {
+    const FairResult result = fair(bent(a, b, c), options).value();
+    EXPECT_FALSE(result.calm_missed) << a << b << c;
+    EXPECT_TRUE(result.within_tolerance) << a << b << c;
+    ASSERT_GE(result.joints.size(), 2U) << a << b << c;
+    for (const auto& joint : result.joints) {
+      EXPECT_LE(joint.gap, 1e-9) << a << b << c;
+      EXPECT_GE(joint.order, 2) << a << b << c;
     }
   }
 }
