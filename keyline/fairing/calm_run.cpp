@@ -90,6 +90,15 @@ BandOptions piece_band(const CalmRun& run, const CalmRunOptions& options) {
           .progress = options.progress};
 }
 
+/// Whether pieces held in place and direction at both ends have freedoms to spare: lengths and
+/// curvatures where they meet or end free, beside the three equations of where they lead.
+bool spares(const DenseCurve& pieces) {
+  if (pieces.hold_start < Hold::direction || pieces.hold_end < Hold::direction) return true;
+  const auto free = [](Hold hold) { return hold < Hold::curvature ? 1 : 0; };
+  const int count = static_cast<int>(pieces.alpha.size());
+  return 2 * count - 1 + free(pieces.hold_start) + free(pieces.hold_end) > 3;
+}
+
 /// Pieces for a calm curve, solved for: as few as lose little of its energy and its place, fewer
 /// and nearer until the points stay in the tolerance and the whole is as calm. A swing of the calm
 /// curve that is too low to be seen may grow in them: then more are tried. The calm curve had that
@@ -117,6 +126,8 @@ void choose_pieces(CalmRun& run, double room, const std::vector<FitPoint>& point
     refine_cells(trial);
     last = std::move(count);
     most = 2 * static_cast<int>(trial.alpha.size());
+    apart = !spares(trial);
+    if (apart) continue;
     const BandReport found = solve_pieces(trial, points, band, most_rms, most_energy);
     apart = !found.within && found.max_offset <= options.tolerance;
     const double lost = found.energy / most_energy;
