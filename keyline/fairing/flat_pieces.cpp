@@ -78,6 +78,12 @@ bool alone(const DenseCurve& curve, std::size_t p) {
   return !before && !after;
 }
 
+/// Whether the curvature of an end of the piece is held, so that it is no arc's to choose.
+bool bends_as_held(const DenseCurve& curve, std::size_t p) {
+  return (p == 0 && curve.hold_start == Hold::curvature) ||
+         (p + 1 == curve.alpha.size() && curve.hold_end == Hold::curvature);
+}
+
 void make_arc(DenseCurve& curve, std::size_t p) {
   const double mean = 0.5 * (curve.value[p] + curve.value[p + 1]);
   curve.kind[p] = PieceKind::arc;
@@ -102,8 +108,9 @@ DenseCurve one_arc(const DenseCurve& curve) {
   return arc;
 }
 
-/// Whether the whole departs from an arc by about what the points may.
+/// Whether the whole departs from an arc by about what the points may, and may be one.
 bool nearly_arc(const DenseCurve& curve, double tolerance) {
+  if (curve.hold_start == Hold::curvature || curve.hold_end == Hold::curvature) return false;
   const auto [low, high] = std::minmax_element(
       curve.joints.begin(), curve.joints.end(),
       [](const FitJoint& a, const FitJoint& b) { return a.curvature < b.curvature; });
@@ -152,7 +159,7 @@ void make_arcs(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>&
                       std::max(band.energy, unseen_energy(curve.length, options.band.tolerance));
   std::vector<std::size_t> which;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p)
-    if (!flat(curve, p) && own[p] * own[p] < least &&
+    if (!flat(curve, p) && !bends_as_held(curve, p) && own[p] * own[p] < least &&
         departure(curve, p) < kBandWidth * options.band.tolerance)
       which.push_back(p);
   std::stable_sort(which.begin(), which.end(),

@@ -136,15 +136,16 @@ class Search {
   std::vector<Straight> found_;
 };
 
-/// The same with its ends moved inwards, but for the ends of an open curve.
+/// The same with its ends moved inwards, but for the ends of an open curve whose curvature nothing
+/// holds.
 Straight shortened(const DenseCurve& curve, Straight line, double share) {
   const double by = share * (curve.at[line.last] - curve.at[line.first]);
   const double from = curve.at[line.first] + by;
   const double to = curve.at[line.last] - by;
   const int end = static_cast<int>(curve.at.size()) - 1;
-  if (line.first > 0 || curve.closed)
+  if (line.first > 0 || curve.closed || curve.hold_start == Hold::curvature)
     while (line.first + 2 < line.last && curve.at[line.first] < from) ++line.first;
-  if (line.last < end || curve.closed)
+  if (line.last < end || curve.closed || curve.hold_end == Hold::curvature)
     while (line.last - 2 > line.first && curve.at[line.last] > to) --line.last;
   return line;
 }

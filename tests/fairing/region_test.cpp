@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "keyline/core/angle.h"
+#include "keyline/numeric/random.h"
 
 #include "truth.h"
 
@@ -80,6 +81,27 @@ TEST(Region, OfFewPiecesMeetsTheRest) {
       EXPECT_LE(joint.gap, 1e-9) << a << b << c;
       EXPECT_GE(joint.order, 2) << a << b << c;
     }
+  }
+}
+
+/// An arc at an end of the part would have a curvature of its own.
+TEST(Region, OfNoisyOutlinesHasTheCurvatureOfTheRest) {
+  FairOptions options;
+  options.region = core::Interval{0.3, 0.7};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    numeric::Random random(seed);
+    const double two = random.uniform(0, 0.25), turned = random.uniform(0, 6);
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 40; ++i) {
+      const double t = 2 * core::kPi * i / 40;
+      const double r = 1 + two * std::cos(2 * t + turned) + 0.003 * random.normal();
+      points.push_back({1.4 * r * std::cos(t), r * std::sin(t)});
+    }
+    points.push_back(points.front());
+    const FairResult result = fair(testing::line_through(points), options).value();
+    ASSERT_GE(result.joints.size(), 2U) << seed;
+    for (const auto& joint : result.joints)
+      EXPECT_LE(joint.relative_curvature_jump.value(), 1e-9) << seed;
   }
 }
 
