@@ -18,6 +18,7 @@ using core::Point2;
 
 constexpr double kSameCrossing = 0.02;  // of the length: sign changes of noise beside the line
 constexpr double kPair = 0.3;           // of the spacing along the curve: side by side
+constexpr double kOne = 1e-6;           // of it: no curve goes from one to the other
 constexpr double kPartner = 2;          // spacings: a corner's image stands so near another corner
 constexpr double kLeastSide = 0.1;      // of the length: less is no side
 constexpr long kNear = 6;               // points about where a foot is expected
@@ -134,11 +135,10 @@ class Folding {
   void merge() {
     acquire::KeyLine& half = half_.line;
     const bool weighted = !line_.weights.empty();
-    const std::size_t first_pair = line_.closed || line_.ends_meet ? 0 : 1;  // a free end stays
     for (std::size_t k = 0; k < members_.size();) {
-      const bool pair = k >= first_pair && k + 1 < members_.size() &&
-                        members_[k].image != members_[k + 1].image &&
-                        members_[k + 1].at - members_[k].at < kPair * spacing_;
+      const double apart = k == 0 ? pair_at_start() : kPair;  // in spacings
+      const bool pair = k + 1 < members_.size() && members_[k].image != members_[k + 1].image &&
+                        members_[k + 1].at - members_[k].at < apart * spacing_;
       const std::size_t count = pair ? 2 : 1;
       core::Vector2 sum;
       double weight = 0;
@@ -153,6 +153,12 @@ class Folding {
       half.weights.push_back(weight);
       k += count;
     }
+  }
+
+  /// A free end stays two points, unless they are one.
+  double pair_at_start() const {
+    if (line_.closed || line_.ends_meet) return kPair;
+    return core::distance(members_[0].point, members_[1].point) < kOne * spacing_ ? kPair : 0;
   }
 
   static std::unexpected<core::Failure> undrawable(const std::string& why) {

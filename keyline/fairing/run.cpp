@@ -112,11 +112,9 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   auto arc = calm_arc(result, run, options, tolerance, residuals);
   std::vector<FitPoint> measured = result.points;
   result.points = with_guides(cut_digits(result.points), run.closed, tolerance);
-  std::vector<double> weights;
-  for (FitPoint& p : result.points) {
-    weights.push_back(p.weight);
-    if (p.must_pass) p.weight = 1;
-  }
+  std::vector<double> weights;  // of points to be passed: here they count as others do
+  for (FitPoint& p : result.points)
+    if (p.must_pass) weights.push_back(std::exchange(p.weight, 1));
   CalmRunOptions calm;
   calm.start = held_end(run, frame, spline, true);
   calm.end = held_end(run, frame, spline, false);
@@ -133,9 +131,11 @@ void solve_least_variation(RunResult& result, const Run& run, const RunFrame& fr
   calm.threads = options.threads;
   calm.members = members_of(result, run, frame);
   CalmRun found = solve_calm(result.points, run.closed, calm);
-  for (std::size_t j = 0; j < weights.size(); ++j) {
-    result.points[j].weight = weights[j];
-    if (result.points[j].must_pass) result.points[j].share = 1 / kPassed;
+  auto weight = weights.begin();
+  for (FitPoint& p : result.points) {
+    if (!p.must_pass) continue;
+    p.weight = *weight++;
+    p.share = 1 / kPassed;
   }
   // Between sparse points the solver may end at bends that no point asks for.
   if (arc && found.curve.alpha.size() > 1)

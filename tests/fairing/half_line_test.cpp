@@ -111,11 +111,17 @@ TEST(Fold, OpenLinesCrossOnce) {
   ASSERT_TRUE(half);
   EXPECT_EQ(half->start, HalfEnd::free);
   EXPECT_EQ(half->end, HalfEnd::square);
-  // Ten pairs (but for the free end, which stays two) and the one on the line.
+  // Ten pairs and the one on the line.
   EXPECT_EQ(half->measured.size(), 21U);
-  EXPECT_EQ(half->line.points.size(), 12U);
-  EXPECT_EQ(half->line.weights[0], 2);
+  EXPECT_EQ(half->line.points.size(), 11U);
+  EXPECT_EQ(half->line.weights[0], 4);
   EXPECT_EQ(half->line.weights[3], 4);
+  // A free end whose image stands elsewhere stays two.
+  arch.points.front() = arch.points.front() + core::Vector2{0.001, 0.003};
+  const auto longer = fold(arch, {{0, 0}, std::numbers::pi / 2});
+  ASSERT_TRUE(longer);
+  EXPECT_EQ(longer->line.points.size(), 12U);
+  EXPECT_EQ(longer->line.weights[0], 2);
 }
 
 // Corners have partners on the other side, or stand on the line.

@@ -161,6 +161,22 @@ TEST(Symmetry, AboutAGivenLine) {
   EXPECT_THAT(refused.error().message, HasSubstr("not symmetric about that line"));
 }
 
+// Both ends of an exact arch are one point of its half.
+TEST(Symmetry, OfAnExactOpenLineIsCalm) {
+  for (const double width : {1.0, 2.0, 3.5}) {
+    std::vector<core::Point2> points;
+    for (int i = 0; i < 40; ++i) {
+      const double t = (i - 19.5) / 19.5;
+      points.push_back({2 * t, std::cos(width * t) + 0.2 * std::pow(t, 4)});
+    }
+    const FairResult result = fair(line_through(points), exactly()).value();
+    ASSERT_TRUE(result.symmetry.has_value()) << width;
+    EXPECT_FALSE(result.calm_missed) << width;
+    EXPECT_TRUE(result.fairness.fair) << width;
+    EXPECT_LT(asymmetry(result, axis_of(result)), 1e-7 * result.length) << width;
+  }
+}
+
 TEST(Symmetry, OfAnOpenLineWhoseEndsChangePlaces) {
   // From 100 degrees before the tip to 100 degrees after it; ends stay free.
   const auto points = lobed(0, 80, -1.75, 1.75, 11);
