@@ -120,7 +120,7 @@ void Band::start(const std::vector<double>& offsets, double barrier) {
   offset_ = offsets;
   barrier_ = barrier;
   const double least = kFirstRoom * tolerance_;
-  std::ranges::fill(force_, 0);
+  force_.assign(points_.size(), 0);
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     if (points_[j].must_pass) continue;
     auto& [high, low] = pair_[j];
