@@ -15,9 +15,10 @@ struct Straight {
 /// Stretches of a curve whose points cannot be told from points on a line with this noise, longest
 /// first taken, none across another: the mean square of their distances from the line of least
 /// squares is within two standard errors of the noise's. Not those that any curve has about an
-/// inflection: bent like the curve a quarter of its length beyond its ends, or as much as it turns by
-/// on the way there, a stretch would have to bow by sixty times the noise. (Curvature that grows evenly through zero passes as a line up to a
-/// bow of twenty.) An open curve may be straight as a whole.
+/// inflection: bent like the curve a quarter of its length beyond its ends, or as much as it turns
+/// by on the way there, a stretch would have to bow by sixty times the noise. (Curvature that grows
+/// evenly through zero passes as a line up to a bow of twenty.) An open curve may be straight as a
+/// whole.
 ///
 /// points: in order along the curve, feet in curve.feet; noise in their unit, above 0.
 std::vector<Straight> straight_stretches(const DenseCurve& curve,
