@@ -20,7 +20,7 @@ core::Result<Bound> Bound::from_text(std::string_view text) {
     return core::fail(core::ErrorCode::bad_input, "\"" + std::string(text) + "\" is no bound",
                       "give " + std::string(kTextForm));
   bound.axis = text.front() == 'x' ? Axis::x : Axis::y;
-  (relation == ">=" ? bound.at_least : bound.at_most) = *value;
+  (relation == ">=" ? bound.at_least : bound.at_most) = value;
   return bound;
 }
 

@@ -111,7 +111,10 @@ core::Result<LatticeFile> read_lattice(std::istream& in, const std::string& name
     blank = blank || line.empty();
     if (line.empty() || (rows.started() && detail::is_comment(line))) continue;
     if (!rows.started()) {
-      if (!shape && (shape = shape_line(line))) continue;
+      if (!shape) {
+        shape = shape_line(line);
+        if (shape) continue;
+      }
       const auto first =
           rows.is_first(detail::trimmed_in_front(*read), lines.number(), lines.place());
       if (!first) return std::unexpected(first.error());

@@ -29,9 +29,11 @@ core::Result<void> PointsKind::take(std::string_view line, const std::string& fi
   constexpr std::array<std::size_t, 7> kHead = {1, 1, 3, 3, 3, 3, 4};  // no other list begins so
   if (!is_head_) return {};
   if (extension_of(file) == ".ptx") return refused(file);
-  is_head_ = has_numbers(line, kHead[line_]) && ++line_ < kHead.size();
-  if (line_ == kHead.size()) return refused(file);
-  return {};
+  is_head_ = has_numbers(line, kHead[line_]);
+  if (!is_head_) return {};
+  ++line_;
+  is_head_ = line_ < kHead.size();
+  return is_head_ ? core::Result<void>{} : refused(file);
 }
 
 }  // namespace keyline::exchange::detail
