@@ -21,18 +21,6 @@ TEST(JointsInside, AreAlsoCuspsOfACurve) {
   EXPECT_EQ(joints[0].joint.order, 0);
 }
 
-// (t^2, 0) and (0, 0): the cubic goes on straight where it stops; the other curve of the path
-// bends.
-TEST(JointsInside, HaveTheCurvatureThatAStopComesNearTo) {
-  const double k = 2;  // of a parabola y = x^2 at its vertex
-  const Path path{
-      {{Bezier2{{{-1, 0}, {0, 0}, {0, 0}}, {}}}, {Bezier2{{{0, 0}, {0.5, 0}, {1, 1}}, {}}}}, false};
-  const auto joints = joints_inside(path);
-  ASSERT_EQ(joints.size(), 1u);
-  EXPECT_EQ(joints[0].joint.order, 1);
-  EXPECT_NEAR(joints[0].joint.curvature_jump.value(), k, 1e-9);
-}
-
 // Of curvature^2 linear in arc length the rate is infinite where it is 0, of a clothoid 1.
 TEST(JointsInside, KnowRatesThatAreInfinite) {
   const auto path_of = [](double alpha) {
