@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "keyline/core/angle.h"
 #include "keyline/curve/arriving.h"
@@ -64,9 +65,11 @@ std::vector<InnerJoint> inner_continuity(const CurveView& curve,
   const ArcLengthTable table(curve);
   const auto& breaks = curve.breaks();
   std::optional<double> before;  // where the piece before ends
+  double length = 0;             // up to there
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
     const double t = breaks[i];
-    if (!(table.length_at(breaks[i + 1]) > table.length_at(t))) continue;
+    const double from = std::exchange(length, table.length_at(breaks[i + 1]));
+    if (!(length > from)) continue;
     if (before)
       joints.push_back({t, joint_continuity(curve.jet_at(std::nextafter(*before, 0.0)),
                                             curve.jet_at(t), table.length(), tolerance)});

@@ -209,6 +209,14 @@ double extent(const Document& document) {
 
 namespace {
 
+/// Of the extensions that a format has, the one it is known by here.
+std::string usual_extension(const std::string& extension) {
+  return extension == ".stp"    ? ".step"
+         : extension == ".igs"  ? ".iges"
+         : extension == ".svgz" ? ".svg"
+                                : extension;
+}
+
 /// The unit a file of that kind is written in: the document's own where the format has it, else mm.
 std::string unit_in(const std::string& extension, const std::string& unit) {
   static const std::map<std::string, std::set<std::string>> kKnown = {
@@ -216,20 +224,15 @@ std::string unit_in(const std::string& extension, const std::string& unit) {
       {".dxf", {"mm", "cm", "m", "km", "in", "ft"}},
       {".step", {"mm", "cm", "m", "km", "in", "ft"}},
       {".iges", {"mm", "cm", "m", "km", "in", "ft"}}};
-  const std::string name = extension == ".stp"    ? ".step"
-                           : extension == ".igs"  ? ".iges"
-                           : extension == ".svgz" ? ".svg"
-                                                  : extension;
-  const auto known = kKnown.find(name);
+  const auto known = kKnown.find(usual_extension(extension));
   if (unit.empty() || known == kKnown.end() || known->second.contains(unit)) return unit;
   return document::millimetres(unit) > 0 ? "mm" : unit;
 }
 
 /// Formats whose numbers always have a unit; DXF and JSON can say that there is none.
 bool wants_unit(const std::string& extension) {
-  static const std::set<std::string> kWith = {".step", ".stp",  ".iges", ".igs",
-                                              ".svg",  ".svgz", ".pdf"};
-  return kWith.contains(extension);
+  static const std::set<std::string> kWith = {".step", ".iges", ".svg", ".pdf"};
+  return kWith.contains(usual_extension(extension));
 }
 
 Result<Written> format_in_unit(const Document& document, const std::string& extension,

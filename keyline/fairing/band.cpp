@@ -10,7 +10,11 @@ constexpr double kBoundary = 0.995;  // share of the way to zero that a multipli
 constexpr double kKept = 0.001;      // least share of its slack that a point keeps in a step
 constexpr double kFirstRoom = 0.5;   // of the tolerance: least slack at the start
 constexpr double kCentred = 1e4;     // products of slack and multiplier stay this near the barrier
-constexpr double kHeld = 1e4;        // weight of points to be passed, in squared tolerances
+
+/// Whether the point is passed, or need not be.
+bool is_passed(const FitPoint& point, double offset, double tolerance) {
+  return !point.must_pass || std::abs(offset) <= kPassed * tolerance * point.share;
+}
 
 }  // namespace
 
@@ -79,8 +83,7 @@ bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>&
 bool all_passed(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
                 double tolerance) {
   for (std::size_t j = 0; j < points.size(); ++j)
-    if (points[j].must_pass && std::abs(offsets[j]) > kPassed * tolerance * points[j].share)
-      return false;
+    if (!is_passed(points[j], offsets[j], tolerance)) return false;
   return true;
 }
 
@@ -105,8 +108,9 @@ double Band::room_low(std::size_t j, double offset) const {
 
 Pull Band::pull(std::size_t j) const {
   if (points_[j].must_pass) {
-    const double weight = kHeld / (tolerance_ * tolerance_), share = points_[j].share;
-    return {weight / (share * share), (weight * missed(j, offset_[j]) + force_[j]) / share};
+    const double share = points_[j].share;
+    return {stiffness() / (share * share),
+            (stiffness() * missed(j, offset_[j]) + force_[j]) / share};
   }
   const auto& [high, low] = pair_[j];
   const double up = room_high(j, offset_[j]) + high.extra;
@@ -170,7 +174,7 @@ double Band::merit(const std::vector<double>& offsets, double share) const {
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     if (points_[j].must_pass) {
       const double off = missed(j, offsets[j]);
-      held += 0.5 * kHeld * std::pow(off / tolerance_, 2) + force_[j] * off;
+      held += (0.5 * stiffness() * off + force_[j]) * off;
       continue;
     }
     const auto& [high, low] = pair_[j];
@@ -190,8 +194,7 @@ void Band::move(const std::vector<double>& offsets, const std::vector<double>& m
   double dual = 1;
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     if (points_[j].must_pass) {
-      const double left = missed(j, offset_[j] + meant[j]);
-      force_[j] += share * kHeld / (tolerance_ * tolerance_) * left;
+      force_[j] += share * stiffness() * missed(j, offset_[j] + meant[j]);
       continue;
     }
     const auto& [high, low] = pair_[j];
@@ -253,10 +256,9 @@ void Band::set_price() {
 double Band::extra() const {
   double most = 0;
   for (const auto& [high, low] : pair_) most = std::max({most, high.extra, low.extra});
-  for (std::size_t j = 0; j < points_.size(); ++j) {
-    const double off = points_[j].must_pass ? std::abs(missed(j, offset_[j])) : 0;
-    if (off > kPassed * tolerance_) most = std::max(most, off);
-  }
+  for (std::size_t j = 0; j < points_.size(); ++j)
+    if (!is_passed(points_[j], offset_[j], tolerance_))
+      most = std::max(most, std::abs(missed(j, offset_[j])));
   return most;
 }
 

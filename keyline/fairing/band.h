@@ -48,6 +48,9 @@ bool limits_kept(const std::vector<FitPoint>& points, const std::vector<double>&
 /// What a point to be passed may be off by, in tolerances.
 inline constexpr double kPassed = 1e-3;
 
+/// Weight of what is held, points to be passed, ends and seams, in squared tolerances.
+inline constexpr double kHeld = 1e4;
+
 /// Whether the points to be passed are.
 bool all_passed(const std::vector<FitPoint>& points, const std::vector<double>& offsets,
                 double tolerance);
@@ -117,6 +120,8 @@ class Band : public Limits {
   };
   /// The offset of a point to be passed, whatever its share.
   double missed(std::size_t j, double offset) const { return offset / points_[j].share; }
+  /// Of what draws a point to be passed to its place.
+  double stiffness() const { return kHeld / (tolerance_ * tolerance_); }
   double room_high(std::size_t j, double offset) const;
   double room_low(std::size_t j, double offset) const;
 

@@ -53,8 +53,7 @@ constexpr double kAtEnd = 0.01;  // of the length: the end is held, not merely n
 constexpr std::array kBesideEnd{0.001, 0.01, 0.05};
 constexpr int kWatchers = 5;  // between neighbours: a bend between them shows at one of these
 constexpr int kSamples = 48;  // of a piece, before the deepest is looked for
-constexpr double kRounding =
-    1e-12;  // of the length: a place so little outside stands on the border
+constexpr double kRounding = 1e-12;  // of the length: so little outside is on the border
 // Steps that look for the deepest, each of which leaves two thirds: 3e-11 of where they began.
 constexpr int kThirds = 60;
 

@@ -14,15 +14,14 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr double kHeld = 1e4;          // weight of held ends and seams, in squared tolerances
-constexpr double kReach = 1e2;         // the same of where an open curve ends beside its last point
-constexpr double kBarrierDrop = 0.25;  // of the barrier that is kept each time a curve settles
-constexpr double kExtra = 1e-6;        // of the tolerance: extra width that counts as none
-constexpr double kProgress = 0.9;      // of the extra width after a step that is worth it
-constexpr std::size_t kStuck = 6;      // steps that together leave more…
-constexpr double kDrawnIn = 0.95;      // …than this of the extra width: more would not draw it in
-constexpr double kAlike = 1e-3;        // of a step: as good as the same
-constexpr int kHalvings = 5;           // of a step that is refused, to a thirty-second
+constexpr double kReach = 1e2;  // as kHeld, of where an open curve ends beside its last point
+constexpr double kBarrierDrop = 0.25;   // of the barrier that is kept each time a curve settles
+constexpr double kExtra = 1e-6;         // of the tolerance: extra width that counts as none
+constexpr double kProgress = 0.9;       // of the extra width after a step that is worth it
+constexpr std::size_t kStuck = 6;       // steps that together leave more…
+constexpr double kDrawnIn = 0.95;       // …than this of the extra width: more would not draw it in
+constexpr double kAlike = 1e-3;         // of a step: as good as the same
+constexpr int kHalvings = 5;            // of a step that is refused, to a thirty-second
 constexpr double kLeastDamping = 1e-2;  // full steps lower it tenfold: less is none
 constexpr double kMostDamping = 1e9;    // refused ones raise it tenfold: the search ends here
 constexpr int kStiffenings = 6;         // of the first springs, each tenfold: 100,000 times at most

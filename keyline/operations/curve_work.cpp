@@ -141,10 +141,10 @@ std::vector<double> corners_of(const document::Path& path, bool comes_back) {
   std::vector<double> corners;
   for (const analysis::InnerJoint& inside : joints_inside(path))
     if (inside.joint.order <= 0) corners.push_back(inside.t);
+  if (!comes_back) return corners;
   const document::CuspedPath cusped(path);
   const analysis::CurveView view(cusped);
-  if (comes_back && analysis::continuity(std::vector{view}, true).back().order <= 0)
-    corners.push_back(0);
+  if (analysis::continuity(std::vector{view}, true).back().order <= 0) corners.push_back(0);
   return corners;
 }
 
