@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "keyline/fairing/counter_bends.h"
 #include "keyline/fairing/turns.h"
 #include "keyline/fairing/wave_choice.h"
 #include "keyline/numeric/parallel.h"
@@ -15,7 +16,9 @@ namespace {
 
 constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr int kTrialSteps = 40;  // of a trial: one that does not come within the band by then fails
-constexpr double kTrialGap = 0.03;  // of the energy, all of which a wave less may cost again
+constexpr double kTrialGap = 0.03;    // of the energy, all of which a wave less may cost again
+constexpr double kBendWorth = 1.05;   // times the energy: what a bend less may cost, as pieces may
+constexpr double kErrorsOfBends = 4;  // standard errors: points that a bend serves so well keep it
 constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
@@ -43,7 +46,7 @@ BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
 class Calming {
  public:
   Calming(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options)
-      : curve_(curve), points_(points), options_(options) {}
+      : curve_(curve), points_(points), options_(options), most_rms_(options.most_rms) {}
 
   Calmed run() {
     report_ = least_variation(curve_, points_, options_.band);
@@ -56,6 +59,34 @@ class Calming {
     take(seen_turns_of(curve_), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
     if (options_.most_turns) keep_to(*options_.most_turns);
+    while (!options_.band.progress.stop_requested() && straighter());
+  }
+
+  /// The least bend to the other side that the points do not ask for.
+  bool straighter() {
+    for (const CounterBend& bend : counter_bends(curve_)) {
+      if (bend.sideways >= options_.band.tolerance) break;
+      const Removal swing{.sideways = bend.sideways};
+      if (bends_.hold(swing)) continue;
+      if (straighten(bend)) return true;
+      bends_.add(swing);
+    }
+    return false;
+  }
+
+  bool straighten(const CounterBend& bend) {
+    Trial trial{curve_, {}};
+    set_side(trial.curve, bend);
+    const std::vector<int> extrema = turns_of(curve_);
+    trial.report = solve_without(trial.curve, points_, extrema, report_.spring, options_);
+    const BandReport& found = trial.report;
+    const auto points = static_cast<double>(points_.size());
+    const double asked = report_.rms * std::sqrt(1 + kErrorsOfBends * kErrorsOfBends / points);
+    if (!found.within || found.rms > std::max(most_rms_, asked) ||
+        found.energy > kBendWorth * report_.energy || turns_of(trial.curve).size() > extrema.size())
+      return false;
+    accept(std::move(trial));
+    return true;
   }
 
   /// Further waves go for the asking, while the tolerance holds.
@@ -160,8 +191,10 @@ class Calming {
   DenseCurve& curve_;
   const std::vector<FitPoint>& points_;
   CalmOptions options_;
+  double most_rms_;  ///< as it was asked for
   BandReport report_;
   Refusals refusals_;
+  Refusals bends_;                         ///< to the other side that stay
   std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
   AtOnce at_once_;
   int tries_ = 0;  ///< of single waves

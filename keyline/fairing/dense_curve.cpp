@@ -29,7 +29,14 @@ std::vector<int> pieces_of(const DenseCurve& curve) {
   return piece;
 }
 
+std::vector<signed char> sides_of_nodes(const DenseCurve& curve) {
+  std::vector<signed char> side(curve.side.empty() ? 0 : curve.joints.size(), 0);
+  for (std::size_t i = 0; i < curve.side.size(); ++i) side[curve.cut[i]] = curve.side[i];
+  return side;
+}
+
 void set_free(DenseCurve& curve) {
+  curve.side = sides_of_nodes(curve);
   const std::size_t nodes = curve.joints.size();
   curve.cut.resize(nodes);
   std::iota(curve.cut.begin(), curve.cut.end(), 0);
@@ -104,6 +111,7 @@ std::vector<CellShape> shapes_of(DenseCurve& curve) {
 DenseCurve begun_at(const DenseCurve& curve, int node) {
   if (node == 0) return curve;
   DenseCurve next = curve;
+  const std::vector<signed char> side = sides_of_nodes(curve);
   const int cells = static_cast<int>(curve.joints.size()) - 1;
   const double first = curve.at[node];
   for (int i = 0; i <= cells; ++i) {
@@ -114,7 +122,9 @@ DenseCurve begun_at(const DenseCurve& curve, int node) {
     if (over) next.joints[i].direction += curve.turning;
   }
   for (Foot& foot : next.feet) foot.piece = (foot.piece - node + cells) % cells;
+  next.side.clear();
   set_free(next);
+  for (int i = 0; i <= cells && !side.empty(); ++i) next.side.push_back(side[(node + i) % cells]);
   next.sense.clear();
   return next;
 }

@@ -34,6 +34,9 @@ struct DenseCurve {
   std::vector<PieceKind> kind;  ///< empty: all are curves
   /// Which way curvature may run in each piece: +1 up, -1 down, 0 either. Empty: either everywhere.
   std::vector<signed char> sense;
+  /// On which side of zero curvature stays at each of `value`: +1 above, -1 below, 0 either. Empty:
+  /// either everywhere.
+  std::vector<signed char> side;
   double most_rate = HUGE_VAL;  ///< fastest that curvature may change with arc length
 };
 
@@ -50,6 +53,9 @@ std::vector<CellShape> shapes_of(DenseCurve& curve);
 
 /// Piece of every cell.
 std::vector<int> pieces_of(const DenseCurve& curve);
+
+/// DenseCurve::side of every node, 0 between pieces' ends; empty where the curve has none.
+std::vector<signed char> sides_of_nodes(const DenseCurve& curve);
 
 /// The curve with a piece of slope -1 for each of its cells.
 void set_free(DenseCurve& curve);

@@ -67,11 +67,11 @@ bool alike(const DenseStep& a, const DenseStep& b, double share) {
   return near(0, 3) && near(3, 2);
 }
 
-std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step) {
-  std::vector<double> change;
+std::vector<std::array<double, 2>> meant_ends(const DenseCurve& curve, const DenseStep& step) {
+  std::vector<std::array<double, 2>> change;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
     const Vector6& state = step.state[curve.cut[p]];
-    change.push_back(state(4) - state(3));
+    change.push_back({state(3), state(4)});
   }
   return change;
 }

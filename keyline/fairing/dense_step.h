@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "keyline/fairing/dense_curve.h"
@@ -25,8 +26,8 @@ DenseCurve moved(const DenseCurve& curve, const DenseStep& step, double share);
 /// Whether poses and curvatures go nearly where those of the other step do, but for that share.
 bool alike(const DenseStep& a, const DenseStep& b, double share);
 
-/// By how much more each piece's curvature rises after the whole step.
-std::vector<double> meant_rises(const DenseCurve& curve, const DenseStep& step);
+/// By how much the curvatures at each piece's ends change after the whole step.
+std::vector<std::array<double, 2>> meant_ends(const DenseCurve& curve, const DenseStep& step);
 
 /// Largest share of the step that keeps curvature on its side where the slope allows no inflection.
 double keeps_side(const DenseCurve& curve, const DenseStep& step);

@@ -105,6 +105,7 @@ DenseCurve one_arc(const DenseCurve& curve) {
   arc.value = {mean, mean};
   arc.kind = {PieceKind::arc};
   arc.sense.clear();
+  arc.side.clear();
   return arc;
 }
 

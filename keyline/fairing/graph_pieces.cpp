@@ -20,7 +20,8 @@ constexpr int kTurnSteps = 6;  // chord steps between a slope that turns too muc
 constexpr double kBowPrice = 0.1;  // energies: a piece that departs sideways by the tolerance
 constexpr double kDrift = 0.25;    // of a piece's end beside the curve, as part of a bow as large:
                                    // neighbours can make up for it
-constexpr double kNearInflection = 1e-2;  // of the other end's curvature: less is an inflection's
+constexpr double kNearInflection = 1e-2;  // of the other end's curvature: less is an inflection's…
+constexpr double kMaySink = 0.1;  // …and this where it is kept on its side of zero, for it may sink
 
 /// The graph between two places, and how pieces between them depart from it.
 class Stretch {
@@ -202,12 +203,16 @@ GraphPieces::Run GraphPieces::make_run(int from, int to, int places) const {
 core::Interval GraphPieces::slopes_of(int from, int to) const {
   const double a = curve_.value[from];
   const double b = curve_.value[to];
-  const bool inflected = a * b <= 0 || std::min(std::abs(a), std::abs(b)) <
-                                           kNearInflection * std::max(std::abs(a), std::abs(b));
-  if (!inflected) return slopes_;
+  const double big = std::max(std::abs(a), std::abs(b));
+  const double small = a * b <= 0 ? 0 : std::min(std::abs(a), std::abs(b));
+  const bool inflected = small <= kNearInflection * big;
+  const int low_end = std::abs(a) < std::abs(b) ? from : to;
+  const bool keeps = !curve_.side.empty() && curve_.side[low_end] != 0;
+  if (!inflected && !(keeps && small <= kMaySink * big)) return slopes_;
   const double low = std::max(slopes_.low, kInflectionLow);
   const double high = std::min(slopes_.high, kInflectionHigh);
-  if (low > high) return {kInflectionLow, kInflectionHigh};  // no others pass an inflection
+  // No others pass an inflection.
+  if (low > high) return inflected ? core::Interval{kInflectionLow, kInflectionHigh} : slopes_;
   return {low, high};
 }
 
@@ -304,6 +309,7 @@ DenseCurve GraphPieces::cut_by(const std::vector<int>& count) const {
   out.sense.clear();
   out.kind.clear();
   out.value = {curve_.value.front()};
+  out.side.resize(std::min<std::size_t>(curve_.side.size(), 1));
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Run& run = runs_[r];
     std::vector<int> path{static_cast<int>(run.place.size()) - 1};
@@ -314,6 +320,7 @@ DenseCurve GraphPieces::cut_by(const std::vector<int>& count) const {
       out.cut.push_back(to);
       out.alpha.push_back(run.fit[path[q - 1]][path[q]].alpha);
       out.value.push_back(curve_.value[to]);
+      if (!curve_.side.empty()) out.side.push_back(curve_.side[to]);
       const double rise = curve_.value[run.place.back()] - curve_.value[run.place.front()];
       out.sense.push_back(rise < 0 ? -1 : 1);
       out.kind.push_back(run.line ? PieceKind::line : PieceKind::curve);

@@ -195,10 +195,11 @@ class Search {
     d(4) = energy.by_end;
     add(cell, d, w, w * energy.root);
     if (!rises_) return;
-    const Pull pull = rises_->pull(p);
-    d(3) = -1;
-    d(4) = 1;
-    add(cell, d, pull.weight, pull.slope);
+    rises_->each_pull(p, [&](double start, double end, const Pull& pull) {
+      d(3) = start;
+      d(4) = end;
+      add(cell, d, pull.weight, pull.slope);
+    });
   }
 
   void add_point(std::vector<Cell>& cells, std::size_t j) const {
@@ -270,7 +271,7 @@ class Search {
   /// Source: second-order corrections, [Nocedal 2006], section 18.3.
   bool go(const DenseStep& step, int halvings, std::vector<Cell>& cells) {
     const std::vector<double> planned = meant(step);
-    const std::vector<double> rises = meant_rises(curve_, step);
+    const RiseBarrier::Ends rises = meant_ends(curve_, step);
     const double before = merit(curve_, spots_, spots_.offset, gaps_.sum, 0);
     double share = std::min(limits_->longest(planned), keeps_side(curve_, step));
     if (rises_) share = std::min(share, rises_->longest(rises));

@@ -13,6 +13,7 @@ constexpr double kBoundary = 0.995;  // share of the way to zero that room or mu
 constexpr double kCentred = 1e4;     // products of room and multiplier stay this near the barrier
 constexpr double kTilt = 1e-2;       // of the curvature's range: how far level values are tilted
 constexpr double kClear = 0.25;      // of the way to the neighbours that a tilt may take
+constexpr double kAside = 1e-3;      // of the range: where a curvature on one side of zero starts
 constexpr double kSlower = 0.9;      // of the fastest rate: where the solver starts
 
 /// How far the values of a pool may rise about their mean: as far apart as they were (`most`,
@@ -191,6 +192,17 @@ void keep_senses(DenseCurve& curve) {
   }
 }
 
+/// Curvatures on the wrong side of zero, or hardly on the right one, moved over in their order.
+void keep_sides(DenseCurve& curve) {
+  if (curve.side.empty()) return;
+  const auto [low, high] = std::minmax_element(curve.value.begin(), curve.value.end());
+  const double least = kAside * std::max(*high - *low, 1e-6);
+  for (std::size_t i = 0; i < curve.value.size(); ++i) {
+    const double v = curve.side[i] * curve.value[i];
+    if (curve.side[i] != 0 && v < least) curve.value[i] = curve.side[i] * least / (2 - v / least);
+  }
+}
+
 /// Pieces that were moved across zero get a slope that passes an inflection.
 void let_pass(DenseCurve& curve) {
   for (std::size_t p = 0; p < curve.alpha.size(); ++p)
@@ -204,6 +216,7 @@ void keep_rises(DenseCurve& curve) {
   const std::vector<double> before = curve.value;
   if (std::isfinite(curve.most_rate) && too_fast(curve) > kSlower) slow_down(curve);
   keep_senses(curve);
+  keep_sides(curve);
   put_back(curve, before);
   if (curve.value != before) let_pass(curve);
 }
@@ -222,20 +235,31 @@ double too_fast(const DenseCurve& curve) {
 
 RiseBarrier::RiseBarrier(const DenseCurve& curve, double barrier) : barrier_(barrier) {
   const bool rates = std::isfinite(curve.most_rate);
-  if (curve.sense.empty() && !rates) return;
+  if (curve.sense.empty() && curve.side.empty() && !rates) return;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p) {
     begins_.push_back(limits_.size());
+    if (!curve.side.empty()) add_sides(curve, p);
     if (flat(curve, p)) continue;
     const int sense = curve.sense.empty() ? 0 : curve.sense[p];
-    if (sense != 0) add(curve, p, sense, 0);
+    const auto rise = [&](double way, double most) {
+      add(curve, {.piece = p, .start = -way, .end = way, .most = most});
+    };
+    if (sense != 0) rise(sense, 0);
     for (const int way : {-1, 1})
-      if (rates && sense != way) add(curve, p, way, most_rise(curve, p));
+      if (rates && sense != way) rise(way, most_rise(curve, p));
   }
   begins_.push_back(limits_.size());
 }
 
-void RiseBarrier::add(const DenseCurve& curve, std::size_t piece, double way, double most) {
-  Limit limit{piece, way, most, 0, 0, 0};
+void RiseBarrier::add_sides(const DenseCurve& curve, std::size_t p) {
+  const int start = curve.side[p];
+  if (start != 0) add(curve, {.piece = p, .start = static_cast<double>(start)});
+  const int end = curve.side[p + 1];
+  const bool last = !curve.closed && p + 1 == curve.alpha.size();
+  if (last && end != 0) add(curve, {.piece = p, .end = static_cast<double>(end)});
+}
+
+void RiseBarrier::add(const DenseCurve& curve, Limit limit) {
   limit.first = limit.room = room(curve, limit);
   if (!(limit.room > 0)) return;
   limit.multiplier = barrier_ / limit.room;
@@ -243,23 +267,14 @@ void RiseBarrier::add(const DenseCurve& curve, std::size_t piece, double way, do
 }
 
 double RiseBarrier::room(const DenseCurve& curve, const Limit& limit) {
-  return limit.most + limit.way * (curve.value[limit.piece + 1] - curve.value[limit.piece]);
+  return limit.most + limit.start * curve.value[limit.piece] +
+         limit.end * curve.value[limit.piece + 1];
 }
 
-Pull RiseBarrier::pull(std::size_t p) const {
-  Pull sum;
-  if (begins_.empty()) return sum;
-  for (std::size_t i = begins_[p]; i < begins_[p + 1]; ++i) {
-    sum.weight += limits_[i].multiplier / limits_[i].room;
-    sum.slope += -limits_[i].way * barrier_ / limits_[i].room;
-  }
-  return sum;
-}
-
-double RiseBarrier::longest(const std::vector<double>& meant) const {
+double RiseBarrier::longest(const Ends& meant) const {
   double share = 1;
   for (const Limit& limit : limits_) {
-    const double by = limit.way * meant[limit.piece];
+    const double by = change(meant, limit);
     if (by < 0) share = std::min(share, -kBoundary * limit.room / by);
   }
   return share;
@@ -271,11 +286,11 @@ double RiseBarrier::merit(const DenseCurve& curve) const {
   return -barrier_ * logs;
 }
 
-void RiseBarrier::move(const DenseCurve& curve, const std::vector<double>& meant) {
+void RiseBarrier::move(const DenseCurve& curve, const Ends& meant) {
   double dual = 1;
   std::vector<double> by;
   for (const Limit& limit : limits_) {
-    by.push_back((barrier_ - limit.multiplier * limit.way * meant[limit.piece]) / limit.room -
+    by.push_back((barrier_ - limit.multiplier * change(meant, limit)) / limit.room -
                  limit.multiplier);
     if (by.back() < 0) dual = std::min(dual, -kBoundary * limit.multiplier / by.back());
   }

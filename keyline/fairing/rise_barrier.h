@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "keyline/fairing/band.h"
@@ -16,30 +17,47 @@ class RiseBarrier {
   /// Starts at the curve's rises; a limit that one of them does not keep strictly is left out.
   RiseBarrier(const DenseCurve& curve, double barrier);
 
-  /// Of a piece's rise from its start's to its end's curvature, as it runs.
-  Pull pull(std::size_t piece) const;
-  /// Largest share of Newton's step, one at most; rises as it means them.
-  double longest(const std::vector<double>& meant) const;
+  /// Changes of the curvatures at the ends of each piece.
+  using Ends = std::vector<std::array<double, 2>>;
+
+  /// What pulls at the curvatures of a piece's ends: pull(start, end, Pull) for each combination
+  /// start * curvature there + end * curvature here.
+  template <class Add>
+  void each_pull(std::size_t piece, Add&& pull) const {
+    if (begins_.empty()) return;
+    for (std::size_t i = begins_[piece]; i < begins_[piece + 1]; ++i) {
+      const Limit& limit = limits_[i];
+      pull(limit.start, limit.end,
+           Pull{.weight = limit.multiplier / limit.room, .slope = -barrier_ / limit.room});
+    }
+  }
+  /// Largest share of Newton's step, one at most; changes as it means them.
+  double longest(const Ends& meant) const;
   /// -barrier * sum of the logarithms of the room left, in shares of the first ones.
   double merit(const DenseCurve& curve) const;
   /// Moves on to the curve; multipliers go as far as none loses its sign.
-  void move(const DenseCurve& curve, const std::vector<double>& meant);
+  void move(const DenseCurve& curve, const Ends& meant);
   void set_barrier(double barrier) { barrier_ = barrier; }
   void rescale(double by);
   int count() const { return static_cast<int>(limits_.size()); }
 
  private:
-  /// room = most + way * rise > 0.
+  /// room = most + start * curvature where the piece starts + end * that where it ends > 0.
   struct Limit {
     std::size_t piece = 0;
-    double way = 1;
+    double start = 0;
+    double end = 0;
     double most = 0;
     double first = 0;  ///< room at the start
     double room = 0;
     double multiplier = 0;
   };
-  void add(const DenseCurve& curve, std::size_t piece, double way, double most);
+  void add(const DenseCurve& curve, Limit limit);
+  void add_sides(const DenseCurve& curve, std::size_t piece);
   static double room(const DenseCurve& curve, const Limit& limit);
+  static double change(const Ends& meant, const Limit& limit) {
+    return limit.start * meant[limit.piece][0] + limit.end * meant[limit.piece][1];
+  }
 
   std::vector<Limit> limits_;        ///< by piece
   std::vector<std::size_t> begins_;  ///< of each piece's, and their end; empty: no limits

@@ -160,6 +160,7 @@ std::vector<Straight> straight_stretches(const DenseCurve& curve,
 DenseCurve with_lines(const DenseCurve& curve, const std::vector<Straight>& lines, double share) {
   DenseCurve out = curve;
   out.sense.clear();
+  out.side.clear();
   out.cut = {0};
   out.alpha.clear();
   out.kind.clear();
@@ -179,8 +180,11 @@ DenseCurve with_lines(const DenseCurve& curve, const std::vector<Straight>& line
     ++line;
   }
   out.value.clear();
-  for (const int node : out.cut)
+  const std::vector<signed char> side = sides_of_nodes(curve);
+  for (const int node : out.cut) {
     out.value.push_back(straight[node] ? 0 : curve.joints[node].curvature);
+    if (!side.empty()) out.side.push_back(straight[node] ? 0 : side[node]);
+  }
   if (curve.closed && (straight.front() || straight.back()))
     out.value.front() = out.value.back() = 0;
   return out;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "keyline/analysis/comb_figures.h"
 #include "keyline/fairing/pooled.h"
+#include "keyline/fairing/sideways.h"
 
 namespace keyline::fairing::detail {
 namespace {
@@ -26,49 +26,18 @@ double range_of(const DenseCurve& curve) {
   return *high - *low;
 }
 
-/// A cell's mean curvature and its share of the length.
-struct Mean {
-  double curvature = 0;
-  double width = 0;
-};
-
-/// How far a curve departs sideways, from the middle of what it does about its chord, where these
-/// cells have one curvature: the difference integrated twice, in shares of the length.
-double departure(std::span<const Mean> cells, double curvature) {
-  std::vector<double> off{0}, place{0};
-  double turn = 0;
-  for (const Mean& cell : cells) {
-    const double bend = cell.curvature - curvature;
-    off.push_back(off.back() + cell.width * (turn + cell.width * bend / 2));
-    place.push_back(place.back() + cell.width);
-    turn += cell.width * bend;
-  }
-  double low = 0, high = 0;
-  for (std::size_t i = 0; i < off.size(); ++i) {
-    const double from_chord = off[i] - off.back() * place[i] / place.back();
-    low = std::min(low, from_chord);
-    high = std::max(high, from_chord);
-  }
-  return (high - low) / 2;
-}
-
-/// The same from node a to b (of a closed curve perhaps on other laps), where curvature becomes one
-/// that only runs that way; in the curve's unit. Of a wave that is a sine this is its amplitude.
+/// How far the curve departs from node a to b (of a closed curve perhaps on other laps) where
+/// curvature becomes one that only runs that way; in the curve's unit. Of a wave that is a sine
+/// this is its amplitude.
 double departure(const DenseCurve& curve, int a, int b, double way) {
-  const int count = static_cast<int>(curve.joints.size()) - 1;
-  std::vector<Mean> cells;
-  for (int i = a; i < b; ++i) {
-    const int c = (i + count) % count;
-    const double sum = curve.joints[c].curvature + curve.joints[c + 1].curvature;
-    cells.push_back({sum / 2, curve.at[c + 1] - curve.at[c]});
-  }
+  const std::vector<CellMean> cells = means_of(curve, a, b);
   double most = 0;
   std::size_t first = 0;
   const double sign = way < 0 ? -1 : 1;
   const auto risen = [&](std::size_t i) { return sign * cells[i].curvature; };
   for (const Pool& pool :
        pooled(cells.size(), risen, [&](std::size_t i) { return cells[i].width; })) {
-    most = std::max(most, departure({&cells[first], pool.count}, sign * pool.mean));
+    most = std::max(most, sideways({&cells[first], pool.count}, sign * pool.mean));
     first += pool.count;
   }
   return most * curve.length;

@@ -153,6 +153,10 @@ TEST(BegunAt, IsTheSameCurveFromAnotherNode) {
   curve.turning = 2 * kPi;
   curve.feet = {{0, 0.5}, {3, 0.25}, {7, 1}};
   curve.sense.assign(1, 1);
+  curve.cut = {0, 2, 8};
+  curve.alpha = {-1, -1};
+  curve.value.assign(3, 2 * kPi);
+  curve.side = {1, -1, 1};
   const DenseCurve next = begun_at(curve, 3);
   ASSERT_EQ(next.at.size(), 9U);
   for (int i = 0; i <= 8; ++i) {
@@ -167,9 +171,10 @@ TEST(BegunAt, IsTheSameCurveFromAnotherNode) {
   EXPECT_EQ(next.feet[2].piece, 4);
   EXPECT_EQ(next.feet[1].fraction, 0.25);
   EXPECT_TRUE(next.sense.empty());
+  EXPECT_EQ(next.side, (std::vector<signed char>{0, 0, 0, 0, 0, 1, 0, -1, 0}));
   EXPECT_EQ(next.alpha.size(), 8U);
   const DenseCurve same = begun_at(curve, 0);
-  EXPECT_EQ(same.alpha.size(), 1U);
+  EXPECT_EQ(same.alpha.size(), 2U);
   EXPECT_EQ(same.feet[1].piece, 3);
 }
 

@@ -1,6 +1,8 @@
 #include "keyline/fairing/dense_step.h"
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -43,10 +45,10 @@ TEST(DenseStep, MovesNodesValuesAndLength) {
   EXPECT_EQ(next.length, 3.25);
 }
 
-TEST(DenseStep, MeantRisesAreEndsLessStarts) {
+TEST(DenseStep, MeantEndsAreThoseWherePiecesBegin) {
   DenseStep step = step_of(4);
   step.state[2](4) = 9;
-  EXPECT_EQ(meant_rises(three(), step), (std::vector<double>{1, 6}));
+  EXPECT_EQ(meant_ends(three(), step), (std::vector<std::array<double, 2>>{{1, 2}, {3, 9}}));
 }
 
 // Poses and curvatures each by themselves: sums of squares over all nodes.

@@ -56,6 +56,33 @@ TEST(GraphPieces, ThroughAnInflectionSlopesAreFew) {
             std::vector<signed char>{-1});
 }
 
+// Kept on its side of zero, curvature may still sink to zero while pieces are solved for: from a
+// twentieth on their slopes are those of inflections. Where nothing keeps it a hundredth counts.
+TEST(GraphPieces, WhereCurvatureKeepsToItsSideItMaySink) {
+  const auto k = [](double t) { return std::pow((1 - t) * std::pow(0.05, 3) + t, 1.0 / 3); };
+  DenseCurve curve = graph(k);
+  const auto slope = [&] { return GraphPieces(curve, {}, kSlopes, 1, 1e-3).cut_by({1}).alpha[0]; };
+  EXPECT_NEAR(slope(), -3, 0.01);
+  curve.side.assign(curve.value.size(), 1);
+  EXPECT_GE(slope(), -1);
+  EXPECT_LE(slope(), -0.3);
+  // Where no such slope is asked for it does without.
+  EXPECT_NEAR(GraphPieces(curve, {}, {-3, -2}, 1, 1e-3).cut_by({1}).alpha[0], -3, 0.01);
+  curve.side.front() = 0;
+  EXPECT_NEAR(slope(), -3, 0.01);
+}
+
+// Each end of a piece keeps the side of its node.
+TEST(GraphPieces, PiecesKeepToTheSidesOfTheirEnds) {
+  DenseCurve curve = graph([](double t) { return 2 - 4 * std::abs(t - 0.5); }, 100);
+  curve.side.assign(101, 0);
+  curve.side[0] = curve.side[50] = 1;
+  GraphPieces pieces(curve, {50}, kSlopes, variation(curve), 1e-4);
+  EXPECT_EQ(pieces.cut_by({1, 1}).side, (std::vector<signed char>{1, 1, 0}));
+  curve.side.clear();
+  EXPECT_TRUE(GraphPieces(curve, {50}, kSlopes, 1, 1e-4).cut_by({1, 1}).side.empty());
+}
+
 // A clothoid through its inflection, hardly uneven: what it turns tells little of the slope, and a
 // slope of -0.3 that turns as far has nearly twice the variation (n^2 / (2n - 1) with n = 1 / 0.3).
 TEST(GraphPieces, ThroughAnInflectionVariationTellsTheSlope) {

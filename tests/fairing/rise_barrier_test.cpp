@@ -7,24 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "rise_limits.h"
+
 /// Limits on the rise of curvature.
 namespace keyline::fairing::detail {
 namespace {
-
-/// Clothoids between these curvatures, evenly spaced.
-DenseCurve of(const std::vector<double>& values, const std::vector<int>& senses) {
-  DenseCurve curve;
-  const auto pieces = static_cast<int>(values.size()) - 1;
-  for (int i = 0; i <= pieces; ++i) {
-    curve.at.push_back(double(i) / pieces);
-    curve.cut.push_back(i);
-  }
-  curve.joints.resize(values.size());
-  curve.value = values;
-  curve.alpha.assign(static_cast<std::size_t>(pieces), -1);
-  curve.sense.assign(senses.begin(), senses.end());
-  return curve;
-}
 
 // One limit a piece: its rise the way it is to run is above 0.
 TEST(RiseBarrier, PullsAsItsMeritRises) {
@@ -33,8 +20,8 @@ TEST(RiseBarrier, PullsAsItsMeritRises) {
   EXPECT_EQ(barrier.count(), 3);
   const std::vector<double> room{1, 2, 1}, way{1, 1, -1};
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_NEAR(barrier.pull(p).slope, -way[p] * 0.2 / room[p], 1e-14);
-    EXPECT_NEAR(barrier.pull(p).weight, 0.2 / (room[p] * room[p]), 1e-14);
+    EXPECT_NEAR(rise_pull(barrier, p).slope, -way[p] * 0.2 / room[p], 1e-14);
+    EXPECT_NEAR(rise_pull(barrier, p).weight, 0.2 / (room[p] * room[p]), 1e-14);
   }
   EXPECT_EQ(barrier.merit(curve), 0);
   EXPECT_NEAR(barrier.merit(of({1, 2.5, 4, 3}, {})), -0.2 * std::log(1.5 * 0.75), 1e-14);
@@ -44,11 +31,11 @@ TEST(RiseBarrier, PullsAsItsMeritRises) {
 TEST(RiseBarrier, LimitsThatAreNotKeptAreLeftOut) {
   const RiseBarrier barrier(of({1, 2, 1, 3}, {0, 1, 1}), 0.1);
   EXPECT_EQ(barrier.count(), 1);
-  EXPECT_EQ(barrier.pull(0).weight, 0);
-  EXPECT_EQ(barrier.pull(1).weight, 0);
-  EXPECT_GT(barrier.pull(2).weight, 0);
+  EXPECT_EQ(rise_pull(barrier, 0).weight, 0);
+  EXPECT_EQ(rise_pull(barrier, 1).weight, 0);
+  EXPECT_GT(rise_pull(barrier, 2).weight, 0);
   EXPECT_EQ(RiseBarrier(of({1, 2}, {}), 0.1).count(), 0);
-  EXPECT_EQ(RiseBarrier(of({1, 2}, {}), 0.1).pull(0).weight, 0);
+  EXPECT_EQ(rise_pull(RiseBarrier(of({1, 2}, {}), 0.1), 0).weight, 0);
 }
 
 // A limit of the rate is one of the rise either way: rate times width times length squared.
@@ -58,33 +45,34 @@ TEST(RiseBarrier, RatesLimitBothWays) {
   curve.most_rate = 1.5;  // most rise 1.5 * 4 / 2 = 3
   const RiseBarrier barrier(curve, 0.1);
   EXPECT_EQ(barrier.count(), 4);
-  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / (3 + 1) + 0.1 / (3 - 1), 1e-14);
-  EXPECT_NEAR(barrier.pull(1).slope, -0.1 / (3 - 0.5) + 0.1 / (3 + 0.5), 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 0).slope, -0.1 / (3 + 1) + 0.1 / (3 - 1), 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 1).slope, -0.1 / (3 - 0.5) + 0.1 / (3 + 0.5), 1e-14);
 }
 
 TEST(RiseBarrier, StepsEndBeforeALimit) {
   const RiseBarrier barrier(of({1, 2, 4, 3}, {1, 1, -1}), 0.1);
-  EXPECT_EQ(barrier.longest({-0.5, -1, 0.5}), 1);
-  EXPECT_NEAR(barrier.longest({-2, 0, 0}), 0.995 / 2, 1e-14);
-  EXPECT_NEAR(barrier.longest({-2, -8, 0}), 0.995 * 2 / 8, 1e-14);
-  EXPECT_NEAR(barrier.longest({0, 0, 5}), 0.995 / 5, 1e-14);
-  EXPECT_EQ(barrier.longest({9, 9, -9}), 1);
+  EXPECT_EQ(barrier.longest(rises({-0.5, -1, 0.5})), 1);
+  EXPECT_NEAR(barrier.longest(rises({-2, 0, 0})), 0.995 / 2, 1e-14);
+  EXPECT_NEAR(barrier.longest(rises({-2, -8, 0})), 0.995 * 2 / 8, 1e-14);
+  EXPECT_NEAR(barrier.longest(rises({0, 0, 5})), 0.995 / 5, 1e-14);
+  EXPECT_EQ(barrier.longest(rises({9, 9, -9})), 1);
 }
 
 // After a whole step multipliers are (barrier - multiplier * meant) / room, as far as all stay
 // positive.
 TEST(RiseBarrier, MultipliersMoveAsNewtonsMethodMeans) {
   RiseBarrier barrier(of({1, 2}, {1}), 0.1);
-  barrier.move(of({1, 2.2}, {1}), {0.3});
-  EXPECT_NEAR(barrier.pull(0).weight, (0.1 - 0.1 * 0.3) / 1 / 1.2, 1e-14);
-  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / 1.2, 1e-14);
+  barrier.move(of({1, 2.2}, {1}), rises({0.3}));
+  EXPECT_NEAR(rise_pull(barrier, 0).weight, (0.1 - 0.1 * 0.3) / 1 / 1.2, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 0).slope, -0.1 / 1.2, 1e-14);
   barrier.rescale(3);
-  EXPECT_NEAR(barrier.pull(0).weight, 3 * 0.07 / 1.2, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 0).weight, 3 * 0.07 / 1.2, 1e-14);
   barrier.set_barrier(0.5);
-  EXPECT_NEAR(barrier.pull(0).slope, -0.5 / 1.2, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 0).slope, -0.5 / 1.2, 1e-14);
   RiseBarrier other(of({1, 2}, {1}), 0.1);
-  other.move(of({1, 2}, {1}), {4});  // would be -0.3: a loss of 0.4, of which 0.995 * 0.1 are taken
-  EXPECT_NEAR(other.pull(0).weight, 0.1 - 0.995 * 0.1, 1e-14);
+  other.move(of({1, 2}, {1}),
+             rises({4}));  // would be -0.3: a loss of 0.4, of which 0.995 * 0.1 are taken
+  EXPECT_NEAR(rise_pull(other, 0).weight, 0.1 - 0.995 * 0.1, 1e-14);
 }
 
 bool keeps_senses(const DenseCurve& curve) {
@@ -355,13 +343,13 @@ TEST(RiseBarrier, SensesAndRatesLimitTogether) {
   curve.most_rate = 1.5;  // most rise 3
   const RiseBarrier barrier(curve, 0.1);
   EXPECT_EQ(barrier.count(), 4);
-  EXPECT_NEAR(barrier.pull(0).slope, -0.1 / 1 + 0.1 / 2, 1e-14);
-  EXPECT_NEAR(barrier.pull(1).slope, 0.1 / 0.5 - 0.1 / 2.5, 1e-14);
-  EXPECT_NEAR(barrier.pull(1).weight, 0.1 / 0.25 + 0.1 / 6.25, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 0).slope, -0.1 / 1 + 0.1 / 2, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 1).slope, 0.1 / 0.5 - 0.1 / 2.5, 1e-14);
+  EXPECT_NEAR(rise_pull(barrier, 1).weight, 0.1 / 0.25 + 0.1 / 6.25, 1e-14);
   // An arc has none.
   curve.kind = {PieceKind::arc, PieceKind::curve};
   EXPECT_EQ(RiseBarrier(curve, 0.1).count(), 2);
-  EXPECT_EQ(RiseBarrier(curve, 0.1).pull(0).weight, 0);
+  EXPECT_EQ(rise_pull(RiseBarrier(curve, 0.1), 0).weight, 0);
 }
 
 // Of a slope that is no clothoid's the most rise is less: what its fastest rate is over its mean
@@ -372,7 +360,8 @@ TEST(RiseBarrier, RatesAreThoseOfThePiecesFastestPlace) {
   curve.alpha = {1, -1};
   curve.most_rate = 10;
   const double most = 10 * 0.5 * 1 / (4 * 0.5);
-  EXPECT_NEAR(RiseBarrier(curve, 0.1).pull(0).slope, -0.1 / (most + 1) + 0.1 / (most - 1), 1e-13);
+  EXPECT_NEAR(rise_pull(RiseBarrier(curve, 0.1), 0).slope, -0.1 / (most + 1) + 0.1 / (most - 1),
+              1e-13);
   EXPECT_NEAR(too_fast(curve), 4.0 / 10, 1e-14);
   std::swap(curve.value[0], curve.value[1]);  // falling: fastest at its start
   EXPECT_NEAR(too_fast(curve), 4.0 / 10, 1e-14);
@@ -381,11 +370,11 @@ TEST(RiseBarrier, RatesAreThoseOfThePiecesFastestPlace) {
 // Products of room and multiplier stay within ten thousand times the barrier.
 TEST(RiseBarrier, MultipliersStayNearTheirBarrier) {
   RiseBarrier barrier(of({1, 2}, {1}), 0.1);
-  barrier.move(of({1, 1 + 1e-6}, {1}), {0});
-  EXPECT_NEAR(barrier.pull(0).weight, 10 / 1e-6, 1);
+  barrier.move(of({1, 1 + 1e-6}, {1}), rises({0}));
+  EXPECT_NEAR(rise_pull(barrier, 0).weight, 10 / 1e-6, 1);
   barrier.set_barrier(1e-5);
-  barrier.move(of({1, 2}, {1}), {0});
-  EXPECT_NEAR(barrier.pull(0).weight, 0.1, 1e-9);
+  barrier.move(of({1, 2}, {1}), rises({0}));
+  EXPECT_NEAR(rise_pull(barrier, 0).weight, 0.1, 1e-9);
 }
 
 }  // namespace

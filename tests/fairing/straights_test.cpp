@@ -37,6 +37,15 @@ TEST(WithLines, ALineTakesItsNodesAndLeavesAShareOfIt) {
   EXPECT_EQ(whole.cut, (std::vector<int>{0, 1, 2, 8, 9, 10}));
 }
 
+// Beside a line curvature keeps to its side as before; the line itself has none.
+TEST(WithLines, SidesStayBesideThem) {
+  DenseCurve curve = ten();
+  curve.side.assign(11, 1);
+  curve.side[8] = 0;
+  const DenseCurve out = with_lines(curve, {{2, 8}}, 0.2);  // from node 4 to node 6
+  EXPECT_EQ(out.side, (std::vector<signed char>{1, 1, 1, 1, 0, 0, 1, 0, 1, 1}));
+}
+
 // An open curve's own ends stay where they are; a closed one's are as any other.
 TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
   const DenseCurve out = with_lines(ten(), {{0, 5}}, 0.2);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "keyline/fairing/dense_curve.h"
+
+/// Where a curve bends to the other side for a while.
+namespace keyline::fairing::detail {
+
+/// A stretch whose curvature has the other sign than that before and behind it; where a curve ends
+/// on its line of symmetry, square to it, behind it is the mirror image of what is before.
+struct CounterBend {
+  double sideways = HUGE_VAL;  ///< how far it departs from a straight line, from the middle of that
+  int first = 0;               ///< nodes of the greatest curvature before and behind it, the second
+  int last = 0;                ///< of a closed curve perhaps on the next lap
+  signed char side = 0;        ///< the sign there
+};
+
+/// Least sideways first.
+std::vector<CounterBend> counter_bends(const DenseCurve& curve);
+
+/// From the first to the last of its nodes curvature is to keep to the side it has there
+/// (DenseCurve::side), besides what is kept elsewhere.
+///
+/// Precondition: the curve is free.
+void set_side(DenseCurve& curve, const CounterBend& bend);
+
+}  // namespace keyline::fairing::detail

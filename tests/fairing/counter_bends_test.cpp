@@ -1,0 +1,154 @@
+#include "keyline/fairing/counter_bends.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+/// Where a curve bends to the other side.
+namespace keyline::fairing::detail {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Free, its nodes evenly spaced; a closed one repeats its first curvature.
+DenseCurve of(const std::vector<double>& curvatures, bool closed = false) {
+  DenseCurve curve;
+  curve.closed = closed;
+  for (std::size_t i = 0; i < curvatures.size(); ++i) {
+    curve.at.push_back(double(i) / double(curvatures.size() - 1));
+    curve.joints.push_back({{}, 0, curvatures[i]});
+  }
+  set_free(curve);
+  return curve;
+}
+
+DenseCurve graph(const std::function<double(double)>& k, int cells, bool closed = false) {
+  std::vector<double> curvatures;
+  for (int i = 0; i <= cells; ++i) curvatures.push_back(k(double(i) / cells));
+  return of(curvatures, closed);
+}
+
+using Sides = std::vector<signed char>;
+
+// The ends of an open curve lie between nothing.
+TEST(CounterBends, HaveBendsToTheOtherSideOnEither) {
+  EXPECT_TRUE(counter_bends(of({1, 2, 3, 1})).empty());
+  EXPECT_TRUE(counter_bends(of({1, 2, -3, -1})).empty());
+  const auto bends = counter_bends(of({1, 3, 2, -0.5, -1, 1, 4, 2}));
+  ASSERT_EQ(bends.size(), 1U);
+  EXPECT_EQ(bends[0].first, 1);
+  EXPECT_EQ(bends[0].last, 6);
+  EXPECT_EQ(bends[0].side, 1);
+}
+
+// What has no curvature belongs to what is before it, or where the curve begins to what follows.
+TEST(CounterBends, AreNotPartedByNodesWithoutCurvature) {
+  EXPECT_TRUE(counter_bends(of({0, 2, 0, 3, 0})).empty());
+  const auto bends = counter_bends(of({0, -2, 0, 3, 0, 2, 0, -4, 0}));
+  ASSERT_EQ(bends.size(), 1U);
+  EXPECT_EQ(bends[0].first, 1);
+  EXPECT_EQ(bends[0].last, 7);
+  EXPECT_EQ(bends[0].side, -1);
+}
+
+// A sine of curvature A over a length l departs by A (l / pi)^2 on one side: half of it either way.
+TEST(CounterBends, DepartByHalfTheirHeight) {
+  DenseCurve curve = graph([](double t) { return -6 * std::sin(5 * kPi * t); }, 5000);
+  curve.length = 3;
+  const auto bends = counter_bends(curve);
+  ASSERT_EQ(bends.size(), 3U);
+  for (const CounterBend& bend : bends)
+    EXPECT_NEAR(bend.sideways, 3 * 6 / (5 * kPi) / (5 * kPi) / 2, 3e-3 * bend.sideways);
+}
+
+TEST(CounterBends, ComeLeastFirst) {
+  const auto bends = counter_bends(of({1, -3, 1, -1, 1, -2, 1}));
+  ASSERT_EQ(bends.size(), 5U);
+  for (std::size_t i = 1; i < bends.size(); ++i)
+    EXPECT_LE(bends[i - 1].sideways, bends[i].sideways);
+}
+
+// Wherever a closed curve begins: three lobes to either side, one of them low.
+TEST(CounterBends, OfAClosedCurveAreFoundWhereverItBegins) {
+  const std::vector<double> k{3, 1, -1, -2, -1, 1, 4, 1, -1, -0.5, 1, 2};
+  const int n = static_cast<int>(k.size());
+  for (int begin = 0; begin < n; ++begin) {
+    std::vector<double> turned;
+    for (int i = 0; i <= n; ++i) turned.push_back(k[(begin + i) % n]);
+    const auto bends = counter_bends(of(turned, true));
+    ASSERT_EQ(bends.size(), 4U) << begin;
+    for (const CounterBend& bend : bends) {
+      EXPECT_GE(bend.first, 0);
+      EXPECT_GT(bend.last, bend.first);
+      EXPECT_EQ(turned[bend.first % n] * bend.side > 0, true);
+      EXPECT_EQ(turned[bend.last % n] * bend.side > 0, true);
+    }
+    const CounterBend& low = bends[0];
+    EXPECT_EQ(low.side, 1) << begin;
+    EXPECT_EQ((low.first + begin) % n, 6) << begin;
+    EXPECT_EQ((low.last + begin) % n, 0) << begin;
+    DenseCurve curve = of(turned, true);
+    set_side(curve, low);
+    for (int i = 0; i < n; ++i) {
+      const int node = (begin + i) % n;
+      EXPECT_EQ(curve.side[i], node >= 6 || node == 0 ? 1 : 0) << begin << ", " << node;
+    }
+    EXPECT_EQ(curve.side.back(), curve.side.front()) << begin;
+  }
+}
+
+// A single bend inwards has the rest of the closed curve on either side of it.
+TEST(CounterBends, OfOneHollowAreTwoRoundACurve) {
+  const int n = 12;
+  for (int begin = 0; begin < n; ++begin) {
+    std::vector<double> turned;
+    for (int i = 0; i <= n; ++i) {
+      const int node = (begin + i) % n;
+      turned.push_back(node == 4 || node == 5 ? -0.5 : node == 10 ? 3 : 1);
+    }
+    const auto bends = counter_bends(of(turned, true));
+    ASSERT_EQ(bends.size(), 2U) << begin;
+    EXPECT_EQ(bends[0].side, 1);
+    DenseCurve curve = of(turned, true);
+    set_side(curve, bends[0]);
+    EXPECT_EQ(curve.side, Sides(n + 1, 1)) << begin;
+  }
+}
+
+// Where a curve ends on its line of symmetry it runs on as its mirror image: a bend there is twice
+// as long, four times as high.
+TEST(CounterBends, OnALineOfSymmetryAreHalves) {
+  const auto k = [](double t) { return t < 0.4 ? -6.0 : t < 0.6 ? 8.0 : -2.0; };
+  DenseCurve curve = graph(k, 1000);
+  EXPECT_EQ(counter_bends(curve).size(), 1U);
+  curve.hold_start = Hold::direction;
+  EXPECT_EQ(counter_bends(curve).size(), 1U);
+  curve.slides_start = true;
+  auto bends = counter_bends(curve);
+  ASSERT_EQ(bends.size(), 2U);  // 8 over 0.2 is lower than 6 over 0.8
+  EXPECT_NEAR(bends[1].sideways, 6 * 0.8 * 0.8 / 8 / 2, 5e-3);
+  EXPECT_EQ(bends[1].side, 1);
+  EXPECT_EQ(bends[1].first, 0);
+  EXPECT_EQ(bends[1].last, 400);
+  curve.slides_end = true;
+  EXPECT_EQ(counter_bends(curve).size(), 2U);  // a corner on the line is no bend
+  curve.hold_end = Hold::direction;
+  bends = counter_bends(curve);
+  ASSERT_EQ(bends.size(), 3U);
+  EXPECT_NEAR(bends[1].sideways, 2 * 0.8 * 0.8 / 8 / 2, 5e-3);
+  EXPECT_EQ(bends[1].first, 400);
+  EXPECT_EQ(bends[1].last, 1000);
+}
+
+TEST(SetSide, LeavesWhatIsKeptElsewhere) {
+  DenseCurve curve = of({1, 3, -1, 2, 1, -1, -2, 1, 4});
+  set_side(curve, {.first = 1, .last = 3, .side = 1});
+  set_side(curve, {.first = 5, .last = 6, .side = -1});
+  EXPECT_EQ(curve.side, (Sides{0, 1, 1, 1, 0, -1, -1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace keyline::fairing::detail
