@@ -75,3 +75,28 @@ def figures(length, curvature):
     window = round(WINDOW * (SAMPLES - 1))
     jolt = float(np.max(np.abs(even[window:] - even[:-window]))) / (high - low)
     return waves_of(even, LEAST_WAVE * (high - low)), energy, jolt
+
+
+def height_of(length, curvature):
+    """How high a stretch rises over its chord: curvature integrated twice."""
+    step = np.diff(length)
+    turn = np.concatenate([[0], np.cumsum(step * (curvature[1:] + curvature[:-1]) / 2)])
+    off = np.concatenate([[0], np.cumsum(step * (turn[1:] + turn[:-1]) / 2)])
+    share = (length - length[0]) / max(length[-1] - length[0], 1e-300)
+    return float(np.max(np.abs(off - share * off[-1])))
+
+
+def low_bends(length, curvature, closed, height):
+    """Stretches of the other sign than before and behind them, lower than `height`."""
+    sign = np.sign(curvature)
+    signed = np.flatnonzero(sign)
+    parts = np.split(signed, np.flatnonzero(np.diff(sign[signed])) + 1)
+    if closed and len(parts) > 1 and sign[parts[0][0]] == sign[parts[-1][0]]:
+        shift = length[-1] - length[0]
+        length = np.concatenate([length, length + shift])
+        curvature = np.concatenate([curvature, curvature])
+        parts = parts[1:-1] + [np.concatenate([parts[-1], parts[0] + len(sign)])]
+    if len(parts) < 2:
+        return 0
+    inner = parts if closed else parts[1:-1]
+    return sum(height_of(length[p], curvature[p]) < height for p in inner)

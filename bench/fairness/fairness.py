@@ -37,6 +37,11 @@ class Row:
         spline = rival.smoothest(points, chain["closed"], result["tolerance"])
         self.spline = spline
         theirs = comb.figures(spline.length, spline.curvature) if spline else None
+        graphs = [comb.graph_of_chain(chain)]
+        if spline:
+            graphs.append((np.array(spline.length), np.array(spline.curvature)))
+        self.low_bends = [comb.low_bends(*graph, chain["closed"], result["tolerance"])
+                          for graph in graphs]
         self.theirs = theirs
         self.energy = self.ours[1] / theirs[1] if theirs and theirs[1] > 0 else math.nan
         self.jolt = self.ours[2] / theirs[2] if theirs and theirs[2] > 0 else math.nan
@@ -67,6 +72,8 @@ def summary(title, rows):
           f"energy {quantile(energy, .5):.3g}, 95 % {quantile(energy, .95):.3g}, "
           f"most {quantile(energy, 1):.3g}; jolt {quantile(jolt, .5):.3g}, "
           f"95 % {quantile(jolt, .95):.3g}, most {quantile(jolt, 1):.3g}; "
+          f"bends to the other side lower than the tolerance "
+          f"{sum(r.low_bends[0] for r in beside)} for {sum(r.low_bends[1] for r in beside)}; "
           f"pieces {quantile([len(r.result['pieces']) for r in rows], .5):.0f}; seconds "
           f"{quantile([r.result['seconds'] for r in rows], .5):.2f}, "
           f"most {quantile([r.result['seconds'] for r in rows], 1):.1f}", flush=True)
