@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "keyline/core/angle.h"
+#include "keyline/fairing/counter_bends.h"
 #include "keyline/fairing/flat_pieces.h"
 #include "keyline/fairing/graph_pieces.h"
 #include "keyline/fairing/leaning_ends.h"
@@ -251,6 +252,8 @@ CalmRun solve_calm(std::vector<FitPoint>& points, bool closed, const CalmRunOpti
 
 BandReport hold_ends(DenseCurve& curve, const std::vector<FitPoint>& points, double tolerance,
                      double spring, const HeldEnd& start, const HeldEnd& end) {
+  if (curve.hold_start == Hold::free && start.hold != Hold::free) loosen_side(curve, true);
+  if (curve.hold_end == Hold::free && end.hold != Hold::free) loosen_side(curve, false);
   put_end(curve, start, true);
   put_end(curve, end, false);
   return least_variation(

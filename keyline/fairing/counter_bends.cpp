@@ -58,21 +58,25 @@ int peak_of(const DenseCurve& curve, const SignRun& run) {
   return peak;
 }
 
-/// Whether the curve runs on beyond that end as its mirror image, square to the line it ends on.
-bool mirrored(const DenseCurve& curve, bool at_start) {
+/// What an open curve's end may do to bends there.
+enum class End { held, free, mirrored };
+
+End end_of(const DenseCurve& curve, bool at_start) {
   const Hold hold = at_start ? curve.hold_start : curve.hold_end;
+  if (hold == Hold::free) return End::free;
   const bool slides = at_start ? curve.slides_start : curve.slides_end;
-  return !curve.closed && slides && hold >= Hold::direction;
+  return slides && hold >= Hold::direction ? End::mirrored : End::held;
 }
 
-/// See CounterBend; with its mirror image where it ends on the line of symmetry.
+/// See CounterBend.
 double sideways(const DenseCurve& curve, const SignRun& run) {
   std::vector<CellMean> cells = means_of(curve, run.first, run.last - 1);
-  if (!curve.closed && run.last == cells_of(curve) + 1) {
-    cells.insert(cells.end(), cells.rbegin(), cells.rend());
-  } else if (!curve.closed && run.first == 0) {
+  const bool starts = !curve.closed && run.first == 0;
+  const bool ends = !curve.closed && run.last == cells_of(curve) + 1;
+  if (starts && end_of(curve, true) == End::mirrored)
     cells.insert(cells.begin(), cells.rbegin(), cells.rend());
-  }
+  else if (ends && end_of(curve, false) == End::mirrored)
+    cells.insert(cells.end(), cells.rbegin(), cells.rend());
   return cells.empty() ? 0 : sideways(cells, 0) * curve.length;
 }
 
@@ -89,9 +93,8 @@ std::vector<CounterBend> counter_bends(const DenseCurve& curve) {
     if (r == n) return curve.closed ? peak_of(curve, runs[0]) + count : count;
     return peak_of(curve, runs[r]);
   };
-  // At an open curve's end a bend lies between nothing.
-  const int first = curve.closed || mirrored(curve, true) ? 0 : 1;
-  const int last = curve.closed || mirrored(curve, false) ? n : n - 1;
+  const int first = curve.closed || end_of(curve, true) != End::held ? 0 : 1;
+  const int last = curve.closed || end_of(curve, false) != End::held ? n : n - 1;
   for (int r = first; r < last; ++r) {
     const int lap = peak(r - 1) < 0 ? count : 0;
     all.push_back({sideways(curve, runs[r]), peak(r - 1) + lap, peak(r + 1) + lap,
@@ -107,6 +110,15 @@ void set_side(DenseCurve& curve, const CounterBend& bend) {
   if (curve.side.empty()) curve.side.assign(curve.joints.size(), 0);
   for (int i = bend.first; i <= bend.last; ++i) curve.side[node_at(curve, i)] = bend.side;
   if (curve.closed) curve.side.back() = curve.side.front();
+}
+
+void loosen_side(DenseCurve& curve, bool at_start) {
+  const std::size_t n = curve.side.size();
+  const auto at = [&](std::size_t i) -> signed char& {
+    return curve.side[at_start ? i : n - 1 - i];
+  };
+  const int side = n > 0 ? at(0) : 0;
+  for (std::size_t i = 0; i < n && at(i) == side; ++i) at(i) = 0;
 }
 
 }  // namespace keyline::fairing::detail

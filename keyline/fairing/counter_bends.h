@@ -8,8 +8,9 @@
 /// Where a curve bends to the other side for a while.
 namespace keyline::fairing::detail {
 
-/// A stretch whose curvature has the other sign than that before and behind it; where a curve ends
-/// on its line of symmetry, square to it, behind it is the mirror image of what is before.
+/// A stretch whose curvature has the other sign than that before and behind it; at an end of an
+/// open curve that nothing holds, than that beside it. Where a curve ends on its line of symmetry,
+/// square to it, behind it is the mirror image of what is before.
 struct CounterBend {
   double sideways = HUGE_VAL;  ///< how far it departs from a straight line, from the middle of that
   int first = 0;               ///< nodes of the greatest curvature before and behind it, the second
@@ -25,5 +26,9 @@ std::vector<CounterBend> counter_bends(const DenseCurve& curve);
 ///
 /// Precondition: the curve is free.
 void set_side(DenseCurve& curve, const CounterBend& bend);
+
+/// At that end nothing is kept any more, up to where a side ends: an end that is drawn elsewhere
+/// may have to bend.
+void loosen_side(DenseCurve& curve, bool at_start);
 
 }  // namespace keyline::fairing::detail

@@ -89,5 +89,15 @@ TEST(Convex, HollowsThatPointsAskForStay) {
     for (const int count : {80, 200}) EXPECT_EQ(inflections_of_fair(dented(depth, count)), 2);
 }
 
+// From the middle of a flat side round a corner to that of the next: at free ends nothing bends
+// inwards, either.
+TEST(Convex, FreeEndsDoNotBendBack) {
+  for (const double power : {4.5, 5.7, 8.0}) {
+    std::vector<core::Point2> points = superellipse(36, 75, power, 320);
+    points.resize(81);
+    EXPECT_EQ(inflections_of_fair(points), 0) << power;
+  }
+}
+
 }  // namespace
 }  // namespace keyline::fairing

@@ -25,6 +25,13 @@ DenseCurve of(const std::vector<double>& curvatures, bool closed = false) {
   return curve;
 }
 
+/// Open, and its ends are held: they lie between nothing.
+DenseCurve held(const std::vector<double>& curvatures) {
+  DenseCurve curve = of(curvatures);
+  curve.hold_start = curve.hold_end = Hold::position;
+  return curve;
+}
+
 DenseCurve graph(const std::function<double(double)>& k, int cells, bool closed = false) {
   std::vector<double> curvatures;
   for (int i = 0; i <= cells; ++i) curvatures.push_back(k(double(i) / cells));
@@ -33,21 +40,37 @@ DenseCurve graph(const std::function<double(double)>& k, int cells, bool closed 
 
 using Sides = std::vector<signed char>;
 
-// The ends of an open curve lie between nothing.
 TEST(CounterBends, HaveBendsToTheOtherSideOnEither) {
-  EXPECT_TRUE(counter_bends(of({1, 2, 3, 1})).empty());
-  EXPECT_TRUE(counter_bends(of({1, 2, -3, -1})).empty());
-  const auto bends = counter_bends(of({1, 3, 2, -0.5, -1, 1, 4, 2}));
+  EXPECT_TRUE(counter_bends(held({1, 2, 3, 1})).empty());
+  EXPECT_TRUE(counter_bends(held({1, 2, -3, -1})).empty());
+  const auto bends = counter_bends(held({1, 3, 2, -0.5, -1, 1, 4, 2}));
   ASSERT_EQ(bends.size(), 1U);
   EXPECT_EQ(bends[0].first, 1);
   EXPECT_EQ(bends[0].last, 6);
   EXPECT_EQ(bends[0].side, 1);
 }
 
+// An end that nothing holds may lie straight: what bends there against all else may go as well.
+TEST(CounterBends, AtFreeEndsHaveOneSide) {
+  DenseCurve curve = of({-1, -2, -1, 1, 6, 5, 9, -1});
+  auto bends = counter_bends(curve);
+  ASSERT_EQ(bends.size(), 3U);  // the large one in the middle among them
+  EXPECT_EQ(bends[0].first, 6);
+  EXPECT_EQ(bends[0].last, 7);
+  EXPECT_EQ(bends[1].first, 0);
+  EXPECT_EQ(bends[1].last, 6);
+  EXPECT_EQ(bends[1].side, 1);
+  curve.hold_start = Hold::position;
+  ASSERT_EQ(counter_bends(curve).size(), 2U);
+  EXPECT_EQ(counter_bends(curve)[0].first, 6);
+  curve.hold_end = Hold::curvature;
+  EXPECT_EQ(counter_bends(curve).size(), 1U);
+}
+
 // What has no curvature belongs to what is before it, or where the curve begins to what follows.
 TEST(CounterBends, AreNotPartedByNodesWithoutCurvature) {
-  EXPECT_TRUE(counter_bends(of({0, 2, 0, 3, 0})).empty());
-  const auto bends = counter_bends(of({0, -2, 0, 3, 0, 2, 0, -4, 0}));
+  EXPECT_TRUE(counter_bends(held({0, 2, 0, 3, 0})).empty());
+  const auto bends = counter_bends(held({0, -2, 0, 3, 0, 2, 0, -4, 0}));
   ASSERT_EQ(bends.size(), 1U);
   EXPECT_EQ(bends[0].first, 1);
   EXPECT_EQ(bends[0].last, 7);
@@ -58,6 +81,7 @@ TEST(CounterBends, AreNotPartedByNodesWithoutCurvature) {
 TEST(CounterBends, DepartByHalfTheirHeight) {
   DenseCurve curve = graph([](double t) { return -6 * std::sin(5 * kPi * t); }, 5000);
   curve.length = 3;
+  curve.hold_start = curve.hold_end = Hold::position;
   const auto bends = counter_bends(curve);
   ASSERT_EQ(bends.size(), 3U);
   for (const CounterBend& bend : bends)
@@ -65,7 +89,7 @@ TEST(CounterBends, DepartByHalfTheirHeight) {
 }
 
 TEST(CounterBends, ComeLeastFirst) {
-  const auto bends = counter_bends(of({1, -3, 1, -1, 1, -2, 1}));
+  const auto bends = counter_bends(held({1, -3, 1, -1, 1, -2, 1}));
   ASSERT_EQ(bends.size(), 5U);
   for (std::size_t i = 1; i < bends.size(); ++i)
     EXPECT_LE(bends[i - 1].sideways, bends[i].sideways);
@@ -123,8 +147,8 @@ TEST(CounterBends, OfOneHollowAreTwoRoundACurve) {
 TEST(CounterBends, OnALineOfSymmetryAreHalves) {
   const auto k = [](double t) { return t < 0.4 ? -6.0 : t < 0.6 ? 8.0 : -2.0; };
   DenseCurve curve = graph(k, 1000);
-  EXPECT_EQ(counter_bends(curve).size(), 1U);
   curve.hold_start = Hold::direction;
+  curve.hold_end = Hold::position;
   EXPECT_EQ(counter_bends(curve).size(), 1U);
   curve.slides_start = true;
   auto bends = counter_bends(curve);
@@ -141,6 +165,20 @@ TEST(CounterBends, OnALineOfSymmetryAreHalves) {
   EXPECT_NEAR(bends[1].sideways, 2 * 0.8 * 0.8 / 8 / 2, 5e-3);
   EXPECT_EQ(bends[1].first, 400);
   EXPECT_EQ(bends[1].last, 1000);
+}
+
+TEST(LooseSide, IsTheEndsUpToTheNext) {
+  const Sides given{1, 1, 0, -1, -1, -1};
+  DenseCurve curve = of({1, 1, 1, -1, -1, -1});
+  curve.side = given;
+  loosen_side(curve, true);
+  EXPECT_EQ(curve.side, (Sides{0, 0, 0, -1, -1, -1}));
+  curve.side = given;
+  loosen_side(curve, false);
+  EXPECT_EQ(curve.side, (Sides{1, 1, 0, 0, 0, 0}));
+  curve.side.clear();
+  loosen_side(curve, true);
+  EXPECT_TRUE(curve.side.empty());
 }
 
 TEST(SetSide, LeavesWhatIsKeptElsewhere) {
