@@ -19,7 +19,8 @@ constexpr int kTrialSteps = 40;  // of a trial: one that does not come within th
 constexpr double kTrialGap = 0.03;    // of the energy, all of which a wave less may cost again
 constexpr double kBendWorth = 1.05;   // times the energy: what a bend less may cost, as pieces may
 constexpr double kErrorsOfBends = 4;  // standard errors: points that a bend serves so well keep it
-constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
+constexpr double kMostBend = 2;  // tolerances: in a band no line takes the place of a higher one
+constexpr int kPatience = 4;     // steps: what is possible at all takes back its extra width sooner
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
                          std::vector<int> extrema, double spring, const CalmOptions& options) {
@@ -65,7 +66,7 @@ class Calming {
   /// The least bend to the other side that the points do not ask for.
   bool straighter() {
     for (const CounterBend& bend : counter_bends(curve_)) {
-      if (bend.sideways >= options_.band.tolerance) break;
+      if (bend.sideways >= kMostBend * options_.band.tolerance) break;
       const Removal swing{.sideways = bend.sideways};
       if (bends_.hold(swing)) continue;
       if (straighten(bend)) return true;
