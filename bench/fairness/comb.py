@@ -87,7 +87,8 @@ def height_of(length, curvature):
 
 
 def low_bends(length, curvature, closed, height):
-    """Stretches of the other sign than before and behind them, lower than `height`."""
+    """Stretches of the other sign than before and behind them (not the ends of an open curve), whose
+    height over the chord is below `height`."""
     sign = np.sign(curvature)
     signed = np.flatnonzero(sign)
     parts = np.split(signed, np.flatnonzero(np.diff(sign[signed])) + 1)

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "keyline/fairing/counter_bends.h"
@@ -17,10 +18,12 @@ namespace {
 constexpr int kRounds = 4;       // in which an extremum may move on
 constexpr int kTrialSteps = 40;  // of a trial: one that does not come within the band by then fails
 constexpr double kTrialGap = 0.03;    // of the energy, all of which a wave less may cost again
-constexpr double kBendWorth = 1.05;   // times the energy: what a bend less may cost, as pieces may
 constexpr double kErrorsOfBends = 4;  // standard errors: points that a bend serves so well keep it
 constexpr double kMostBend = 2;  // tolerances: in a band no line takes the place of a higher one
-constexpr int kPatience = 4;     // steps: what is possible at all takes back its extra width sooner
+constexpr std::size_t kBendsInRow =
+    24;  // single ones that are tried, see kInRow and kTries of waves
+constexpr int kBendTries = 100;
+constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
                          std::vector<int> extrema, double spring, const CalmOptions& options) {
@@ -43,7 +46,15 @@ BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
   return report;
 }
 
-/// The search for waves to take out.
+/// Bends that depart by less than that either way and were not refused, least first.
+std::vector<CounterBend> low_bends(const DenseCurve& curve, double most, const Refusals& refused) {
+  std::vector<CounterBend> low;
+  for (const CounterBend& bend : counter_bends(curve))
+    if (bend.sideways < most && !refused.hold({.sideways = bend.sideways})) low.push_back(bend);
+  return low;
+}
+
+/// The search for waves to take out, and for bends to the other side.
 class Calming {
  public:
   Calming(DenseCurve& curve, const std::vector<FitPoint>& points, const CalmOptions& options)
@@ -56,35 +67,64 @@ class Calming {
   }
 
  private:
+  /// What a curve may cost.
+  struct Price {
+    double rms = HUGE_VAL;
+    double energy = HUGE_VAL;
+  };
+
+  static bool worth(const BandReport& found, const Price& most) {
+    return found.within && found.rms <= most.rms && found.energy <= most.energy;
+  }
+
+  /// A curve with some extrema alone, where it is worth it.
+  struct Trial {
+    DenseCurve curve;
+    BandReport report;
+  };
+
   void take_waves() {
     take(seen_turns_of(curve_), true);
     while (!options_.band.progress.stop_requested() && (together() || single()));
     if (options_.most_turns) keep_to(*options_.most_turns);
-    while (!options_.band.progress.stop_requested() && straighter());
+    straighten();
   }
 
-  /// The least bend to the other side that the points do not ask for.
-  bool straighter() {
-    for (const CounterBend& bend : counter_bends(curve_)) {
-      if (bend.sideways >= kMostBend * options_.band.tolerance) break;
-      const Removal swing{.sideways = bend.sideways};
-      if (bends_.hold(swing)) continue;
-      if (straighten(bend)) return true;
-      bends_.add(swing);
+  /// Takes bends to the other side out that the points do not ask for: all that are low at once, or
+  /// else half as many, down to single ones, least first.
+  void straighten() {
+    const auto points = static_cast<double>(points_.size());
+    const double asked = report_.rms * std::sqrt(1 + kErrorsOfBends * kErrorsOfBends / points);
+    const Price most{std::max(most_rms_, asked), options_.bend_worth * report_.energy};
+    while (!options_.band.progress.stop_requested()) {
+      const std::vector<CounterBend> low =
+          low_bends(curve_, kMostBend * options_.band.tolerance, bends_);
+      const std::vector<CounterBend> together = apart(curve_, low);
+      const bool some = bends_at_once_.try_together(together.size(), [&](std::size_t n) {
+        return without_bends(std::span(together).first(n), most);
+      });
+      if (some) continue;
+      if (!one_less(low, most)) return;
+      bends_at_once_.one_went();
+    }
+  }
+
+  bool one_less(const std::vector<CounterBend>& low, const Price& most) {
+    for (std::size_t i = 0; i < std::min(low.size(), kBendsInRow); ++i) {
+      if (++bend_tries_ > kBendTries) return false;
+      if (without_bends(std::span(low).subspan(i, 1), most)) return true;
+      bends_.add({.sideways = low[i].sideways});
     }
     return false;
   }
 
-  bool straighten(const CounterBend& bend) {
+  bool without_bends(std::span<const CounterBend> gone, const Price& most) {
     Trial trial{curve_, {}};
-    set_side(trial.curve, bend);
+    for (const CounterBend& bend : gone) set_side(trial.curve, bend);
     const std::vector<int> extrema = turns_of(curve_);
     trial.report = solve_without(trial.curve, points_, extrema, report_.spring, options_);
-    const BandReport& found = trial.report;
-    const auto points = static_cast<double>(points_.size());
-    const double asked = report_.rms * std::sqrt(1 + kErrorsOfBends * kErrorsOfBends / points);
-    if (!found.within || found.rms > std::max(most_rms_, asked) ||
-        found.energy > kBendWorth * report_.energy || turns_of(trial.curve).size() > extrema.size())
+    if (!worth(trial.report, most) || turns_of(trial.curve).size() > extrema.size() ||
+        counter_bends(trial.curve).size() >= counter_bends(curve_).size())
       return false;
     accept(std::move(trial));
     return true;
@@ -99,20 +139,11 @@ class Calming {
     while (!options_.band.progress.stop_requested() && left() > turns && single());
   }
 
-  /// A curve with some extrema alone, where it is worth it.
-  struct Trial {
-    DenseCurve curve;
-    BandReport report;
-  };
-
   /// Solves with these extrema alone.
   std::optional<Trial> attempt(const std::vector<int>& extrema, bool any_count) const {
     Trial trial{curve_, {}};
     trial.report = solve_without(trial.curve, points_, extrema, report_.spring, options_);
-    const BandReport& found = trial.report;
-    if (!found.within || found.rms > options_.most_rms ||
-        found.energy > options_.worth * report_.energy)
-      return {};
+    if (!worth(trial.report, {options_.most_rms, options_.worth * report_.energy})) return {};
     if (!any_count && turns_of(trial.curve).size() >= turns_of(curve_).size()) return {};
     return trial;
   }
@@ -195,7 +226,9 @@ class Calming {
   double most_rms_;  ///< as it was asked for
   BandReport report_;
   Refusals refusals_;
-  Refusals bends_;                         ///< to the other side that stay
+  Refusals bends_;  ///< to the other side that stay
+  AtOnce bends_at_once_;
+  int bend_tries_ = 0;                     ///< of single ones
   std::vector<std::vector<int>> in_vain_;  ///< extrema that were tried with the curve as it is
   AtOnce at_once_;
   int tries_ = 0;  ///< of single waves

@@ -17,8 +17,9 @@
 namespace keyline::fairing::detail {
 namespace {
 
-constexpr int kLeastCells = 240;     // a hundredth of the energy is lost to half as many
-constexpr double kForPieces = 0.05;  // of the energy, given for having few pieces
+constexpr int kLeastCells = 240;  // a hundredth of the energy is lost to half as many
+constexpr double kForPieces =
+    0.05;  // of the energy, given for few pieces, and before for bends gone
 // Standard errors of the offsets' mean square that having fewer waves, fewer pieces, or a line may
 // cost. Four: by chance a root of a mean square is hardly ever that large, so points that a wave
 // would serve keep it. Five for pieces: with 3 there are a tenth more of them, with 8 a fifth fewer
@@ -207,6 +208,7 @@ CalmRun solve_in(double room, std::vector<FitPoint>& points, bool closed,
   calm_options.band.rms = options.residuals.rms;
   calm_options.most_rms = options.residuals.most(kErrorsOfWaves);
   calm_options.worth = kWaveWorth;
+  calm_options.bend_worth = 1 + kForPieces;
   calm_options.most_turns = options.most_turns;
   calm_options.threads = options.threads;
   calm_options.band.progress = options.progress;

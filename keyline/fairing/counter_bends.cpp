@@ -48,6 +48,10 @@ std::vector<SignRun> sign_runs(const DenseCurve& curve) {
     else
       runs.push_back({i, i + 1, sign});
   }
+  if (curve.closed && runs.size() > 1 && runs.front().sign == runs.back().sign) {
+    runs.back().last = runs.front().last + nodes;  // it had begun at a node without curvature
+    runs.erase(runs.begin());
+  }
   return runs;
 }
 
@@ -106,6 +110,19 @@ std::vector<CounterBend> counter_bends(const DenseCurve& curve) {
   return all;
 }
 
+std::vector<CounterBend> apart(const DenseCurve& curve, const std::vector<CounterBend>& bends) {
+  std::vector<CounterBend> taken;
+  std::vector<signed char> side(curve.joints.size(), 0);
+  for (const CounterBend& bend : bends) {
+    bool free = true;
+    for (int i = bend.first; i <= bend.last; ++i) free &= side[node_at(curve, i)] * bend.side >= 0;
+    if (!free) continue;
+    for (int i = bend.first; i <= bend.last; ++i) side[node_at(curve, i)] = bend.side;
+    taken.push_back(bend);
+  }
+  return taken;
+}
+
 void set_side(DenseCurve& curve, const CounterBend& bend) {
   if (curve.side.empty()) curve.side.assign(curve.joints.size(), 0);
   for (int i = bend.first; i <= bend.last; ++i) curve.side[node_at(curve, i)] = bend.side;
@@ -114,11 +131,13 @@ void set_side(DenseCurve& curve, const CounterBend& bend) {
 
 void loosen_side(DenseCurve& curve, bool at_start) {
   const std::size_t n = curve.side.size();
-  const auto at = [&](std::size_t i) -> signed char& {
-    return curve.side[at_start ? i : n - 1 - i];
-  };
-  const int side = n > 0 ? at(0) : 0;
-  for (std::size_t i = 0; i < n && at(i) == side; ++i) at(i) = 0;
+  const auto from_end = [&](std::size_t i) { return at_start ? i : n - 1 - i; };
+  const auto bend = [&](std::size_t i) { return std::abs(curve.value[from_end(i)]); };
+  const int side = n > 0 ? curve.side[from_end(0)] : 0;
+  for (std::size_t i = 0; i < n && curve.side[from_end(i)] == side; ++i) {
+    if (i > 0 && bend(i) < bend(i - 1)) break;
+    curve.side[from_end(i)] = 0;
+  }
 }
 
 }  // namespace keyline::fairing::detail

@@ -21,14 +21,17 @@ struct CounterBend {
 /// Least sideways first.
 std::vector<CounterBend> counter_bends(const DenseCurve& curve);
 
+/// Of these, in their order, those that ask for one side of every node.
+std::vector<CounterBend> apart(const DenseCurve& curve, const std::vector<CounterBend>& bends);
+
 /// From the first to the last of its nodes curvature is to keep to the side it has there
 /// (DenseCurve::side), besides what is kept elsewhere.
 ///
 /// Precondition: the curve is free.
 void set_side(DenseCurve& curve, const CounterBend& bend);
 
-/// At that end nothing is kept any more, up to where a side ends: an end that is drawn elsewhere
-/// may have to bend.
+/// At that end nothing is kept any more, up to where curvature is greatest or a side ends: an end
+/// that is drawn elsewhere may have to bend.
 void loosen_side(DenseCurve& curve, bool at_start);
 
 }  // namespace keyline::fairing::detail

@@ -84,6 +84,12 @@ bool bends_as_held(const DenseCurve& curve, std::size_t p) {
          (p + 1 == curve.alpha.size() && curve.hold_end == Hold::curvature);
 }
 
+/// Whether an arc would bend to the side that one of the piece's ends does not.
+bool against_side(const DenseCurve& curve, std::size_t p) {
+  const double mean = curve.value[p] + curve.value[p + 1];
+  return !curve.side.empty() && (mean * curve.side[p] < 0 || mean * curve.side[p + 1] < 0);
+}
+
 void make_arc(DenseCurve& curve, std::size_t p) {
   const double mean = 0.5 * (curve.value[p] + curve.value[p + 1]);
   curve.kind[p] = PieceKind::arc;
@@ -160,8 +166,8 @@ void make_arcs(DenseCurve& curve, BandReport& band, const std::vector<FitPoint>&
                       std::max(band.energy, unseen_energy(curve.length, options.band.tolerance));
   std::vector<std::size_t> which;
   for (std::size_t p = 0; p < curve.alpha.size(); ++p)
-    if (!flat(curve, p) && !bends_as_held(curve, p) && own[p] * own[p] < least &&
-        departure(curve, p) < kBandWidth * options.band.tolerance)
+    if (!flat(curve, p) && !bends_as_held(curve, p) && !against_side(curve, p) &&
+        own[p] * own[p] < least && departure(curve, p) < kBandWidth * options.band.tolerance)
       which.push_back(p);
   std::stable_sort(which.begin(), which.end(),
                    [&](std::size_t a, std::size_t b) { return own[a] < own[b]; });

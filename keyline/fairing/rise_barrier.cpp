@@ -252,11 +252,13 @@ RiseBarrier::RiseBarrier(const DenseCurve& curve, double barrier) : barrier_(bar
 }
 
 void RiseBarrier::add_sides(const DenseCurve& curve, std::size_t p) {
-  const int start = curve.side[p];
-  if (start != 0) add(curve, {.piece = p, .start = static_cast<double>(start)});
+  int start = curve.side[p];
   const int end = curve.side[p + 1];
+  const bool arc = flat(curve, p);  // its end is as its start
+  if (arc && start == 0) start = end;
+  if (start != 0) add(curve, {.piece = p, .start = static_cast<double>(start)});
   const bool last = !curve.closed && p + 1 == curve.alpha.size();
-  if (last && end != 0) add(curve, {.piece = p, .end = static_cast<double>(end)});
+  if (last && !arc && end != 0) add(curve, {.piece = p, .end = static_cast<double>(end)});
 }
 
 void RiseBarrier::add(const DenseCurve& curve, Limit limit) {

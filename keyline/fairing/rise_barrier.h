@@ -8,13 +8,14 @@
 
 namespace keyline::fairing::detail {
 
-/// Which way curvature may run (DenseCurve::sense) and how fast (DenseCurve::most_rate) as what
-/// they are: limits on the rise of every piece, met by a primal-dual interior point beside the
-/// band's. Rises are linear in what is solved for, so a curve that keeps them strictly at the start
-/// (see `keep_rises`) keeps them.
+/// Which way curvature may run (DenseCurve::sense), how fast (DenseCurve::most_rate) and on which
+/// side of zero it stays (DenseCurve::side) as what they are: limits on the rise of every piece and
+/// on the curvatures of its ends, met by a primal-dual interior point beside the band's. All are
+/// linear in what is solved for, so a curve that keeps them strictly at the start (see
+/// `keep_rises`) keeps them.
 class RiseBarrier {
  public:
-  /// Starts at the curve's rises; a limit that one of them does not keep strictly is left out.
+  /// Starts at the curve's curvatures; a limit that they do not keep strictly is left out.
   RiseBarrier(const DenseCurve& curve, double barrier);
 
   /// Changes of the curvatures at the ends of each piece.
@@ -66,7 +67,8 @@ class RiseBarrier {
 
 /// Curvatures moved to near ones that keep rates and senses strictly, as far as both go together:
 /// means of the least and the greatest that run no faster, then of what runs against the senses,
-/// tilted by a small share of the range. The gaps between the cells that this leaves are the
+/// tilted by a small share of the range. What is on the wrong side of zero then moves over, in its
+/// order. The gaps between the cells that this leaves are the
 /// solver's to close.
 void keep_rises(DenseCurve& curve);
 

@@ -185,8 +185,10 @@ DenseCurve with_lines(const DenseCurve& curve, const std::vector<Straight>& line
     out.value.push_back(straight[node] ? 0 : curve.joints[node].curvature);
     if (!side.empty()) out.side.push_back(straight[node] ? 0 : side[node]);
   }
-  if (curve.closed && (straight.front() || straight.back()))
+  if (curve.closed && (straight.front() || straight.back())) {
     out.value.front() = out.value.back() = 0;
+    if (!out.side.empty()) out.side.front() = out.side.back() = 0;
+  }
   return out;
 }
 

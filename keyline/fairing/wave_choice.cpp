@@ -21,7 +21,7 @@ constexpr int kTries = 100;
 
 bool Refusals::hold(const Removal& swing) const {
   return std::ranges::any_of(sideways_,
-                             [&](double s) { return std::abs(s - swing.sideways) < kSame * s; });
+                             [&](double s) { return std::abs(s - swing.sideways) <= kSame * s; });
 }
 
 std::vector<Removal> small_waves(const std::vector<Removal>& all, std::size_t extrema,

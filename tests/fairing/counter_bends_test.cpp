@@ -77,6 +77,18 @@ TEST(CounterBends, AreNotPartedByNodesWithoutCurvature) {
   EXPECT_EQ(bends[0].side, -1);
 }
 
+// Also where a closed curve begins at one: in truth two bends, wherever it does.
+TEST(CounterBends, OfClosedCurvesAreNotPartedByThemEither) {
+  const std::vector<double> k{2, 0, 1, -3, -1, 3};
+  for (std::size_t begin = 0; begin < 6; ++begin) {
+    std::vector<double> turned;
+    for (std::size_t i = 0; i <= 6; ++i) turned.push_back(k[(begin + i) % 6]);
+    const auto bends = counter_bends(of(turned, true));
+    ASSERT_EQ(bends.size(), 2U) << begin;
+    EXPECT_EQ(bends[0].side * bends[1].side, -1) << begin;
+  }
+}
+
 // A sine of curvature A over a length l departs by A (l / pi)^2 on one side: half of it either way.
 TEST(CounterBends, DepartByHalfTheirHeight) {
   DenseCurve curve = graph([](double t) { return -6 * std::sin(5 * kPi * t); }, 5000);
@@ -176,9 +188,27 @@ TEST(LooseSide, IsTheEndsUpToTheNext) {
   curve.side = given;
   loosen_side(curve, false);
   EXPECT_EQ(curve.side, (Sides{1, 1, 0, 0, 0, 0}));
+  curve = of({1, 2, 5, 0.1, 4, 3});
+  curve.side.assign(6, 1);
+  loosen_side(curve, true);  // up to its peak
+  EXPECT_EQ(curve.side, (Sides{0, 0, 0, 1, 1, 1}));
+  loosen_side(curve, false);
+  EXPECT_EQ(curve.side, (Sides{0, 0, 0, 1, 0, 0}));
   curve.side.clear();
   loosen_side(curve, true);
   EXPECT_TRUE(curve.side.empty());
+}
+
+// Neighbours ask for other sides of the nodes between their peaks; the next but one does not.
+TEST(Apart, NeighboursGoOneAfterTheOther) {
+  const DenseCurve curve = held({2, -1, 3, -2, 1, -1, 2});
+  const auto bends = counter_bends(curve);
+  ASSERT_EQ(bends.size(), 5U);
+  const auto some = apart(curve, {bends[0], bends[1], bends[2], bends[3], bends[4]});
+  EXPECT_EQ(some[0].first, bends[0].first);
+  for (const CounterBend& bend : some) EXPECT_EQ(bend.side, some[0].side);
+  EXPECT_GT(some.size(), 1U);
+  EXPECT_LT(some.size(), 5U);
 }
 
 TEST(SetSide, LeavesWhatIsKeptElsewhere) {

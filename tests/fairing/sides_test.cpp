@@ -38,6 +38,19 @@ TEST(RiseBarrier, SidesLimitCurvatures) {
               -0.2 * std::log(3 * 0.5 * 0.5), 1e-14);
 }
 
+// An arc's end bends as its start: one limit, with the side of either.
+TEST(RiseBarrier, AnArcHasOneCurvature) {
+  DenseCurve curve = of({1, 2, 2}, {});
+  curve.kind = {PieceKind::curve, PieceKind::arc};
+  curve.side = {0, 0, 1};
+  const RiseBarrier barrier(curve, 0.1);
+  EXPECT_EQ(barrier.count(), 1);
+  barrier.each_pull(1, [](double start, double end, const Pull&) {
+    EXPECT_EQ(start, 1);
+    EXPECT_EQ(end, 0);
+  });
+}
+
 // Of a closed curve the last curvature is the first: one limit for both.
 TEST(RiseBarrier, WhereAClosedCurveBeginsOneSideCounts) {
   DenseCurve curve = of({1, 2, 1}, {});

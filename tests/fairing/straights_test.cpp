@@ -46,6 +46,15 @@ TEST(WithLines, SidesStayBesideThem) {
   EXPECT_EQ(out.side, (std::vector<signed char>{1, 1, 1, 1, 0, 0, 1, 0, 1, 1}));
 }
 
+TEST(WithLines, AtASeamBothEndsHaveNoSide) {
+  DenseCurve curve = ten();
+  curve.closed = true;
+  curve.side.assign(11, 1);
+  const DenseCurve out = with_lines(curve, {{0, 5}}, 0);
+  EXPECT_EQ(out.side.front(), 0);
+  EXPECT_EQ(out.side.back(), 0);
+}
+
 // An open curve's own ends stay where they are; a closed one's are as any other.
 TEST(WithLines, EndsOfAnOpenCurveAreNotShortened) {
   const DenseCurve out = with_lines(ten(), {{0, 5}}, 0.2);
