@@ -252,8 +252,8 @@ RiseBarrier::RiseBarrier(const DenseCurve& curve, double barrier) : barrier_(bar
 }
 
 void RiseBarrier::add_sides(const DenseCurve& curve, std::size_t p) {
-  int start = curve.side[p];
-  const int end = curve.side[p + 1];
+  int start = int{curve.side[p]};
+  const int end = int{curve.side[p + 1]};
   const bool arc = flat(curve, p);  // its end is as its start
   if (arc && start == 0) start = end;
   if (start != 0) add(curve, {.piece = p, .start = static_cast<double>(start)});
