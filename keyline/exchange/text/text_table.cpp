@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "keyline/core/leading_number.h"
 #include "keyline/core/text.h"
@@ -137,7 +138,7 @@ std::optional<double> parse_number(std::string_view field, TableStyle style) {
   std::array<char, 128> text;
   if (field.size() > text.size()) return std::nullopt;
   std::copy(field.begin(), field.end(), text.begin());
-  for (char& c : text) {
+  for (char& c : std::span(text).first(field.size())) {
     // Fortran writes exponents with D.
     if (c == 'D' || c == 'd') c = 'e';
     if (style.decimal_comma && c == ',') c = '.';
