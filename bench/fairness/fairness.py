@@ -33,13 +33,13 @@ class Row:
     def __init__(self, name, points, result):
         chain = profiles.chain_of(result)
         self.name, self.result, self.chain = name, result, chain
-        self.ours = comb.figures(*comb.graph_of_chain(chain))
+        graphs = [comb.graph_of_chain(chain)]
+        self.ours = comb.figures(*graphs[0])
         spline = rival.smoothest(points, chain["closed"], result["tolerance"])
         self.spline = spline
         theirs = comb.figures(spline.length, spline.curvature) if spline else None
-        graphs = [comb.graph_of_chain(chain)]
         if spline:
-            graphs.append((np.array(spline.length), np.array(spline.curvature)))
+            graphs.append((spline.length, spline.curvature))
         self.low_bends = [comb.low_bends(*graph, chain["closed"], result["tolerance"])
                           for graph in graphs]
         self.theirs = theirs

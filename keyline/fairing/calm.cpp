@@ -20,10 +20,7 @@ constexpr int kTrialSteps = 40;  // of a trial: one that does not come within th
 constexpr double kTrialGap = 0.03;    // of the energy, all of which a wave less may cost again
 constexpr double kErrorsOfBends = 4;  // standard errors: points that a bend serves so well keep it
 constexpr double kMostBend = 2;  // tolerances: in a band no line takes the place of a higher one
-constexpr std::size_t kBendsInRow =
-    24;  // single ones that are tried, see kInRow and kTries of waves
-constexpr int kBendTries = 100;
-constexpr int kPatience = 4;  // steps: what is possible at all takes back its extra width sooner
+constexpr int kPatience = 4;     // steps: what is possible at all takes back its extra width sooner
 
 BandReport solve_without(DenseCurve& curve, const std::vector<FitPoint>& points,
                          std::vector<int> extrema, double spring, const CalmOptions& options) {
@@ -110,8 +107,8 @@ class Calming {
   }
 
   bool one_less(const std::vector<CounterBend>& low, const Price& most) {
-    for (std::size_t i = 0; i < std::min(low.size(), kBendsInRow); ++i) {
-      if (++bend_tries_ > kBendTries) return false;
+    for (std::size_t i = 0; i < low.size() && i < kInRow; ++i) {
+      if (++bend_tries_ > kTries) return false;
       if (without_bends(std::span(low).subspan(i, 1), most)) return true;
       bends_.add({.sideways = low[i].sideways});
     }

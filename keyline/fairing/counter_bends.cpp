@@ -100,8 +100,9 @@ std::vector<CounterBend> counter_bends(const DenseCurve& curve) {
   const int first = curve.closed || end_of(curve, true) != End::held ? 0 : 1;
   const int last = curve.closed || end_of(curve, false) != End::held ? n : n - 1;
   for (int r = first; r < last; ++r) {
-    const int lap = peak(r - 1) < 0 ? count : 0;
-    all.push_back({sideways(curve, runs[r]), peak(r - 1) + lap, peak(r + 1) + lap,
+    const int before = peak(r - 1);
+    const int lap = before < 0 ? count : 0;
+    all.push_back({sideways(curve, runs[r]), before + lap, peak(r + 1) + lap,
                    static_cast<signed char>(-runs[r].sign)});
   }
   std::stable_sort(all.begin(), all.end(), [](const CounterBend& a, const CounterBend& b) {

@@ -68,8 +68,7 @@ class RiseBarrier {
 /// Curvatures moved to near ones that keep rates and senses strictly, as far as both go together:
 /// means of the least and the greatest that run no faster, then of what runs against the senses,
 /// tilted by a small share of the range. What is on the wrong side of zero then moves over, in its
-/// order. The gaps between the cells that this leaves are the
-/// solver's to close.
+/// order. The gaps between the cells that this leaves are the solver's to close.
 void keep_rises(DenseCurve& curve);
 
 /// Pieces that run faster than `most_rate` become clothoids, which of all that rise as far over the

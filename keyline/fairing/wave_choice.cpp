@@ -11,11 +11,6 @@ constexpr double kSame = 1e-3;  // of a swing: no more than that is another tria
 // the band, of fillets between straights some up to 5.
 constexpr double kHopeless = 8;
 constexpr std::size_t kHeldBy = 4;  // points or more: so many tell a rate of curvature
-// Single waves that are tried. In a row that all stay, least first, twice as many as stood before
-// one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
-// on any: more have only curves that follow their points' errors.
-constexpr int kInRow = 24;
-constexpr int kTries = 100;
 
 }  // namespace
 

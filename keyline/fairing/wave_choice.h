@@ -10,6 +10,12 @@
 /// Which waves are tried to be taken out next, and how many at once.
 namespace keyline::fairing::detail {
 
+/// Single waves that are tried. In a row that all stay, least first, twice as many as stood before
+/// one that went on any measured profile: wider ones stay too. Of one curve, three times as many as
+/// on any: more have only curves that follow their points' errors. Of bends as many, unmeasured.
+inline constexpr int kInRow = 24;
+inline constexpr int kTries = 100;
+
 /// Swings that were tried and are not worth it.
 class Refusals {
  public:

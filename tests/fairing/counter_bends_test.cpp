@@ -7,20 +7,17 @@
 
 #include <gtest/gtest.h>
 
+#include "evenly_bent.h"
+
 /// Where a curve bends to the other side.
 namespace keyline::fairing::detail {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Free, its nodes evenly spaced; a closed one repeats its first curvature.
+/// See evenly_bent(); free.
 DenseCurve of(const std::vector<double>& curvatures, bool closed = false) {
-  DenseCurve curve;
-  curve.closed = closed;
-  for (std::size_t i = 0; i < curvatures.size(); ++i) {
-    curve.at.push_back(double(i) / double(curvatures.size() - 1));
-    curve.joints.push_back({{}, 0, curvatures[i]});
-  }
+  DenseCurve curve = evenly_bent(curvatures, closed);
   set_free(curve);
   return curve;
 }

@@ -9,24 +9,16 @@
 
 #include "keyline/core/angle.h"
 
+#include "evenly_bent.h"
+
 /// Turns of curvature.
 namespace keyline::fairing::detail {
 namespace {
 
-DenseCurve of(const std::vector<double>& curvatures, bool closed = false) {
-  DenseCurve curve;
-  curve.closed = closed;
-  for (std::size_t i = 0; i < curvatures.size(); ++i) {
-    curve.at.push_back(double(i) / double(curvatures.size() - 1));
-    curve.joints.push_back({{}, 0, curvatures[i]});
-  }
-  return curve;
-}
-
 using Nodes = std::vector<int>;
 
 TEST(Extrema, AreWhereCurvatureTurnsByEnough) {
-  const DenseCurve wave = of({0, 1, 3, 2, 2.5, 0, 1});
+  const DenseCurve wave = evenly_bent({0, 1, 3, 2, 2.5, 0, 1});
   EXPECT_EQ(extrema_of(wave, 0.6), (Nodes{2, 5}));
   EXPECT_EQ(extrema_of(wave, 0.4), (Nodes{2, 3, 4, 5}));
   EXPECT_EQ(extrema_of(wave, 2.9), Nodes{2});
@@ -35,47 +27,47 @@ TEST(Extrema, AreWhereCurvatureTurnsByEnough) {
 
 // A swing of exactly the least is none; the last way is to be gone as far as all others.
 TEST(Extrema, SwingsAreLargerThanTheLeast) {
-  EXPECT_EQ(extrema_of(of({0, 1, 0}), 1), Nodes{});
-  EXPECT_EQ(extrema_of(of({0, 1, 0}), 0.99), Nodes{1});
-  EXPECT_EQ(extrema_of(of({1, 0, 1}), 0.99), Nodes{1});
-  EXPECT_EQ(extrema_of(of({1, 0, 0.5}), 0.6), Nodes{});
-  EXPECT_EQ(extrema_of(of({0, 2, 1}), 1), Nodes{});
-  EXPECT_EQ(extrema_of(of({2, 0, 1}), 1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 1, 0}), 1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 1, 0}), 0.99), Nodes{1});
+  EXPECT_EQ(extrema_of(evenly_bent({1, 0, 1}), 0.99), Nodes{1});
+  EXPECT_EQ(extrema_of(evenly_bent({1, 0, 0.5}), 0.6), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 2, 1}), 1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({2, 0, 1}), 1), Nodes{});
 }
 
 // However slowly curvature comes to them: each step is less than what counts.
 TEST(Extrema, AreSeenFromGentleSlopesToo) {
-  EXPECT_EQ(extrema_of(of({3, 2.5, 2, 1.5, 1, 1.5, 2, 2.5}), 1), Nodes{4});
-  EXPECT_EQ(extrema_of(of({0, 0.5, 1, 1.5, 2, 1.5, 1, 0.5}), 1), Nodes{4});
+  EXPECT_EQ(extrema_of(evenly_bent({3, 2.5, 2, 1.5, 1, 1.5, 2, 2.5}), 1), Nodes{4});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 0.5, 1, 1.5, 2, 1.5, 1, 0.5}), 1), Nodes{4});
 }
 
 TEST(Extrema, OfMonotoneCurvatureAreNone) {
-  EXPECT_EQ(extrema_of(of({0, 1, 2, 3}), 0.1), Nodes{});
-  EXPECT_EQ(extrema_of(of({3, 2, 1, 0}), 0.1), Nodes{});
-  EXPECT_EQ(extrema_of(of({1, 1, 1}), 0.1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 1, 2, 3}), 0.1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({3, 2, 1, 0}), 0.1), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({1, 1, 1}), 0.1), Nodes{});
 }
 
 // Of equal ones the first.
 TEST(Extrema, StandAtTheFirstOfEquals) {
-  EXPECT_EQ(extrema_of(of({0, 2, 2, 0}), 0.5), Nodes{1});
-  EXPECT_EQ(extrema_of(of({2, 0, 0, 2}), 0.5), Nodes{1});
+  EXPECT_EQ(extrema_of(evenly_bent({0, 2, 2, 0}), 0.5), Nodes{1});
+  EXPECT_EQ(extrema_of(evenly_bent({2, 0, 0, 2}), 0.5), Nodes{1});
 }
 
 // Of a closed curve the highest node is one, and they come in pairs.
 TEST(Extrema, OfClosedCurvesGoRound) {
-  EXPECT_EQ(extrema_of(of({1, 3, 1, -1, 1}, true), 0.5), (Nodes{1, 3}));
-  EXPECT_EQ(extrema_of(of({3, 1, 2, 0, 3}, true), 0.5), (Nodes{0, 1, 2, 3}));
-  EXPECT_EQ(extrema_of(of({1, 2, 0, 3, 1}, true), 0.5), (Nodes{0, 1, 2, 3}));
-  EXPECT_EQ(extrema_of(of({1, 1, 1, 1}, true), 0.5), Nodes{});
+  EXPECT_EQ(extrema_of(evenly_bent({1, 3, 1, -1, 1}, true), 0.5), (Nodes{1, 3}));
+  EXPECT_EQ(extrema_of(evenly_bent({3, 1, 2, 0, 3}, true), 0.5), (Nodes{0, 1, 2, 3}));
+  EXPECT_EQ(extrema_of(evenly_bent({1, 2, 0, 3, 1}, true), 0.5), (Nodes{0, 1, 2, 3}));
+  EXPECT_EQ(extrema_of(evenly_bent({1, 1, 1, 1}, true), 0.5), Nodes{});
 }
 
 TEST(Turns, CountFromAThousandthOfTheRange) {
-  EXPECT_EQ(turns_of(of({0, 10, 9.989, 10, 0})).size(), 3U);
-  EXPECT_EQ(turns_of(of({0, 10, 9.991, 10, 0})).size(), 1U);
+  EXPECT_EQ(turns_of(evenly_bent({0, 10, 9.989, 10, 0})).size(), 3U);
+  EXPECT_EQ(turns_of(evenly_bent({0, 10, 9.991, 10, 0})).size(), 1U);
 }
 
 TEST(MovedOn, ExtremaStandAtTheFarEndOfWhatIsLevel) {
-  const DenseCurve hill = of({0, 5, 10, 10, 10, 5, 0, 0, 0, 0, 0});
+  const DenseCurve hill = evenly_bent({0, 5, 10, 10, 10, 5, 0, 0, 0, 0, 0});
   EXPECT_EQ(moved_on(hill, {2}), Nodes{4});
   EXPECT_EQ(moved_on(hill, {4}), Nodes{2});
   EXPECT_EQ(moved_on(hill, {3}), Nodes{3});          // level on both sides
@@ -89,16 +81,17 @@ TEST(MovedOn, ExtremaStandAtTheFarEndOfWhatIsLevel) {
 // A range of 10 over the length: of a tenth of it a hundredth is 0.01.
 TEST(MovedOn, LevelIsAHundredthOfTheRange) {
   const auto moved = [](double next) {
-    return moved_on(of({0, 5, 10, next, 5, 0, 1, 2, 3, 4, 5}), {2});
+    return moved_on(evenly_bent({0, 5, 10, next, 5, 0, 1, 2, 3, 4, 5}), {2});
   };
   EXPECT_EQ(moved(9.9901), Nodes{3});
   EXPECT_EQ(moved(9.9899), Nodes{2});
-  EXPECT_EQ(moved_on(of({0, -5, -10, -9.9901, -5, 0, 1, 2, 3, 4, 0}, true), {2}), Nodes{3});
+  EXPECT_EQ(moved_on(evenly_bent({0, -5, -10, -9.9901, -5, 0, 1, 2, 3, 4, 0}, true), {2}),
+            Nodes{3});
 }
 
 TEST(Turns, AreSeenFromAFiftiethOfTheRange) {
-  EXPECT_EQ(seen_turns_of(of({0, 10, 9.79, 10, 0})).size(), 3U);
-  EXPECT_EQ(seen_turns_of(of({0, 10, 9.81, 10, 0})).size(), 1U);
+  EXPECT_EQ(seen_turns_of(evenly_bent({0, 10, 9.79, 10, 0})).size(), 3U);
+  EXPECT_EQ(seen_turns_of(evenly_bent({0, 10, 9.81, 10, 0})).size(), 1U);
 }
 
 /// The nearest values (mean squares) that rise, by the formula of greatest and least means
@@ -149,7 +142,7 @@ double departure(const std::vector<double>& value, double h) {
 DenseCurve with(const std::function<double(double)>& curvature, int cells, double length) {
   std::vector<double> k;
   for (int i = 0; i <= cells; ++i) k.push_back(curvature(double(i) / cells));
-  DenseCurve curve = of(k);
+  DenseCurve curve = evenly_bent(k);
   curve.length = length;
   return curve;
 }
@@ -227,21 +220,22 @@ TEST(Removals, DepartAsTheNearestCurvatureThatRunsOneWay) {
 // Of a closed curve the last swing goes on over the seam; two extrema alone are not to go, for a
 // closed curve has two.
 TEST(Removals, KnowThePointsTheyStandOn) {
-  DenseCurve curve = of({1, 6, 4, 2, 3});
+  DenseCurve curve = evenly_bent({1, 6, 4, 2, 3});
   curve.at = {0, 0.1, 0.2, 0.5, 1};
   for (const int cell : {0, 0, 1, 2, 3, 3, 3}) curve.feet.push_back({cell, 0.5});
   std::vector<std::size_t> points(3);
   for (const Removal& r : removals(curve, {1, 3}))
     points[r.count == 2 ? 1 : 2 * r.first] = r.points;
   EXPECT_EQ(points, (std::vector<std::size_t>{2, 2, 3}));
-  DenseCurve closed = of({3, 1, 2, 0.5, 2.5, 3}, true);
+  DenseCurve closed = evenly_bent({3, 1, 2, 0.5, 2.5, 3}, true);
   for (const int cell : {0, 1, 2, 2, 3, 4, 4}) closed.feet.push_back({cell, 0.5});
   for (const Removal& r : removals(closed, {0, 1, 2, 3}))
     EXPECT_EQ(r.points, (std::vector<std::size_t>{1, 1, 2, 3})[r.first]);
 }
 
 TEST(Removals, OfClosedCurvesGoOnOverTheSeam) {
-  const DenseCurve curve = of({3, 1, 2, 0.5, 2.5, 3}, true);  // nodes a fifth of the length apart
+  const DenseCurve curve =
+      evenly_bent({3, 1, 2, 0.5, 2.5, 3}, true);  // nodes a fifth of the length apart
   const std::vector<Removal> all = removals(curve, {0, 1, 2, 3});
   ASSERT_EQ(all.size(), 4U);
   for (const Removal& r : all) {
@@ -273,8 +267,8 @@ TEST(Removals, OfClosedCurvesDoNotDependOnTheSeam) {
 }
 
 TEST(Removals, OfAnOpenCurveWithoutTurnsAreNone) {
-  EXPECT_TRUE(removals(of({0, 1, 2}), {}).empty());
-  EXPECT_EQ(removals(of({0, 2, 1}), {1}).size(), 2U);
+  EXPECT_TRUE(removals(evenly_bent({0, 1, 2}), {}).empty());
+  EXPECT_EQ(removals(evenly_bent({0, 2, 1}), {1}).size(), 2U);
 }
 
 TEST(Without, TakesTheExtremaThatBoundTheSwing) {
@@ -293,31 +287,32 @@ std::vector<int> senses(DenseCurve curve, const std::vector<int>& extrema) {
 
 // Up to a hill, down behind it; what is asked to have no turn runs from one end to the other.
 TEST(Senses, AreThoseBetweenTheExtrema) {
-  const DenseCurve wave = of({2, 4, 5, 3, 1, 2, 3});
+  const DenseCurve wave = evenly_bent({2, 4, 5, 3, 1, 2, 3});
   EXPECT_EQ(senses(wave, {2, 4}), (Nodes{1, 1, -1, -1, 1, 1}));
   EXPECT_EQ(senses(wave, {}), (Nodes{1, 1, 1, 1, 1, 1}));
-  EXPECT_EQ(senses(of({3, 4, 5, 3, 1, 2, 2}), {}), (Nodes{-1, -1, -1, -1, -1, -1}));
-  EXPECT_EQ(senses(of({5, 1, 4, 2}), {1, 2}), (Nodes{-1, 1, -1}));
-  EXPECT_EQ(senses(of({5, 1, 4, 2}), {0, 2}), (Nodes{-1, -1, 1}));  // down to it, so up behind it
-  EXPECT_EQ(senses(of({0, 2, 4, 1, 3, 5, 0}), {2, 3, 5}), (Nodes{1, 1, -1, 1, 1, -1}));
+  EXPECT_EQ(senses(evenly_bent({3, 4, 5, 3, 1, 2, 2}), {}), (Nodes{-1, -1, -1, -1, -1, -1}));
+  EXPECT_EQ(senses(evenly_bent({5, 1, 4, 2}), {1, 2}), (Nodes{-1, 1, -1}));
+  EXPECT_EQ(senses(evenly_bent({5, 1, 4, 2}), {0, 2}),
+            (Nodes{-1, -1, 1}));  // down to it, so up behind it
+  EXPECT_EQ(senses(evenly_bent({0, 2, 4, 1, 3, 5, 0}), {2, 3, 5}), (Nodes{1, 1, -1, 1, 1, -1}));
 }
 
 // One turn is a hill where it is above the ends' mean, though one end may be as high, else a
 // valley.
 TEST(Senses, OfOneTurnAreToldByTheEndsMean) {
-  EXPECT_EQ(senses(of({0, 3, 2}), {1}), (Nodes{1, -1}));
-  EXPECT_EQ(senses(of({0, 1.5, 2}), {1}), (Nodes{1, -1}));
-  EXPECT_EQ(senses(of({0, 0.5, 2}), {1}), (Nodes{-1, 1}));
-  EXPECT_EQ(senses(of({2, 1.5, 0, 0}), {1}), (Nodes{1, -1, -1}));
-  EXPECT_EQ(senses(of({2, 0.5, 0, 0}), {1}), (Nodes{-1, 1, 1}));
+  EXPECT_EQ(senses(evenly_bent({0, 3, 2}), {1}), (Nodes{1, -1}));
+  EXPECT_EQ(senses(evenly_bent({0, 1.5, 2}), {1}), (Nodes{1, -1}));
+  EXPECT_EQ(senses(evenly_bent({0, 0.5, 2}), {1}), (Nodes{-1, 1}));
+  EXPECT_EQ(senses(evenly_bent({2, 1.5, 0, 0}), {1}), (Nodes{1, -1, -1}));
+  EXPECT_EQ(senses(evenly_bent({2, 0.5, 0, 0}), {1}), (Nodes{-1, 1, 1}));
 }
 
 // Round a closed curve cells before the first and behind the last extremum run alike; none keeps
 // either way open.
 TEST(Senses, OfClosedCurvesGoRound) {
-  EXPECT_EQ(senses(of({2, 3, 2, 1, 2}, true), {1, 3}), (Nodes{1, -1, -1, 1}));
-  EXPECT_EQ(senses(of({2, 1, 2, 3, 2}, true), {1, 3}), (Nodes{-1, 1, 1, -1}));
-  EXPECT_EQ(senses(of({2, 1, 2, 3, 2}, true), {}), (Nodes{0, 0, 0, 0}));
+  EXPECT_EQ(senses(evenly_bent({2, 3, 2, 1, 2}, true), {1, 3}), (Nodes{1, -1, -1, 1}));
+  EXPECT_EQ(senses(evenly_bent({2, 1, 2, 3, 2}, true), {1, 3}), (Nodes{-1, 1, 1, -1}));
+  EXPECT_EQ(senses(evenly_bent({2, 1, 2, 3, 2}, true), {}), (Nodes{0, 0, 0, 0}));
 }
 
 }  // namespace
