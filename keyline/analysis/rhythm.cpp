@@ -102,7 +102,7 @@ class Reader {
     if (rhythm == Rhythm::plus) bounds = {0, limit, 0, limit};
     if (rhythm == Rhythm::plus_minus) bounds = {band, limit, -limit, -band};
     if (rhythm == Rhythm::minus_plus) bounds = {-limit, -band, band, limit};
-    const LineFit fit = detail::fit_two_lines(frame_, bounds, line(), seen_);
+    const LineFit fit = detail::fit_two_lines(frame_, bounds, seen_);
     const LineModel& m = fit.model;
     Interpretation i = start(rhythm, 5);
     i.slopes = {m.slope0, m.slope1};
@@ -140,15 +140,6 @@ class Reader {
     return error < kUndetermined ? error : kUndetermined;
   }
 
-  /// The one line that fits best, where two lines start from: a few cells tell it well enough.
-  LineModel line() const {
-    if (!line_) {
-      const double limit = options_.slope_limit;
-      line_ = detail::fit_one_line(frame_.coarse(), -limit, limit, seen_).model;
-    }
-    return *line_;
-  }
-
   Interpretation rated(Interpretation i, double deviation) const {
     i.deviation = deviation * frame_.length();
     const double ratio = deviation / sigma_;
@@ -173,7 +164,6 @@ class Reader {
   double sigma_ = 1;
   double observations_ = 100;
   double seen_ = kExact;  ///< a deviation that no other start of a fit will better
-  mutable std::optional<LineModel> line_;
 };
 
 void rank(std::vector<Interpretation>& list) {

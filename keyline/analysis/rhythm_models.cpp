@@ -17,6 +17,7 @@ namespace keyline::analysis::detail {
 namespace {
 
 constexpr core::Interval kAnchors{0.05, 0.95};
+constexpr double kLeastCurvature = 1e-12;  // to begin with, of a piece of length 1
 
 LineFit straight_line(const PieceFrame& frame, double slope0, double slope1) {
   const double none = std::numeric_limits<double>::infinity();
@@ -44,19 +45,34 @@ Eigen::VectorXd uncertainty(const PieceFrame& frame, Lines build, const Eigen::V
   return inverse->diagonal().cwiseMax(0).cwiseSqrt();
 }
 
-/// One line through the mean curvature of both ends, with the right whole turning.
-LineModel first_guess(const PieceFrame& frame, double slope) {
-  const int cells = frame.cells();
-  const int part = cells / 20;
-  const double floor = 1e-3 * std::max(frame.mean_curvature(0, cells), 1e-12);
-  const double start = std::max(frame.mean_curvature(0, part), floor);
-  const double end = std::max(frame.mean_curvature(cells - part, cells), floor);
-  const double q = std::log(end / start);
-  LineModel m{1, q, 0.5, slope, slope};
-  if (std::abs(slope) > 1e-6) m.rate = 2 / slope * std::tanh(slope * q / 2);
-  m.rate = drawable_rate(m);
-  m.curvature = frame.turning().sum() / turning_of(m, cells).sum();
-  return m;
+/// Rates to begin with: shares of the last one with which the piece exists, 0 to beside it; where
+/// there is none, as many that double.
+std::vector<double> rates_to_try(const LineModel& m) {
+  constexpr int kMany = 10;
+  const double last = drawable_rates(m).low;
+  std::vector<double> rates;
+  for (int k = 0; k < kMany; ++k)
+    rates.push_back(std::isfinite(last) ? last * (1 - std::exp2(-k)) : -0.1 * std::exp2(k));
+  return rates;
+}
+
+/// The model with the rate of these, and its curvature, that leaves least. Displacement is linear
+/// in curvature: the best one is known.
+LineModel with_best_rate(const PieceFrame& frame, LineModel m) {
+  const Eigen::VectorXd none = frame.displacement(Eigen::VectorXd::Zero(frame.cells()));
+  double least = std::numeric_limits<double>::infinity();
+  LineModel best = m;
+  for (const double rate : rates_to_try(m)) {
+    m.rate = rate;
+    m.curvature = 1;
+    const Eigen::VectorXd one = frame.displacement(turning_of(m, frame.cells())) - none;
+    m.curvature = std::max(-one.dot(none) / one.squaredNorm(), kLeastCurvature);
+    const double left = (m.curvature * one + none).norm();
+    if (!(left < least)) continue;
+    least = left;
+    best = m;
+  }
+  return best;
 }
 
 /// Of a curvature and a rate, which are free, and of what has ranges.
@@ -104,9 +120,9 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high, double se
     const double start = std::clamp(wish, low + width / 50, high - width / 50);
     if (start == last || least < seen) continue;
     last = start;
-    const LineModel guess = first_guess(frame, start);
+    const LineModel guess = with_best_rate(few, {1, 0, 0.5, start, start});
     Eigen::VectorXd x(3);
-    x << std::log(std::max(guess.curvature, 1e-12)), guess.rate, start;
+    x << std::log(guess.curvature), guess.rate, start;
     const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 60), x);
     if (!(deviation < least)) continue;
     least = deviation;
@@ -114,7 +130,8 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high, double se
   }
   LineFit best;
   if (best_x.size() == 0) {
-    best.model = first_guess(frame, std::clamp(0.0, low, high));
+    const double slope = std::clamp(0.0, low, high);
+    best.model = with_best_rate(frame, {1, 0, 0.5, slope, slope});
     best.deviation = frame.displacement(turning_of(best.model, frame.cells())).norm();
     return best;
   }
@@ -130,50 +147,49 @@ LineFit fit_one_line(const PieceFrame& frame, double low, double high, double se
 
 namespace {
 
-/// Two lines near the one line m, meeting at the anchor, with slopes this far from its slope.
-Eigen::VectorXd two_lines_guess(const LineModel& m, const SlopeBounds& b, double anchor,
-                                double step0, double step1) {
-  const double margin = 0.4;
-  LineModel guess = m;
-  guess.slope0 = std::clamp(m.slope0 + step0, b.low0 + margin, b.high0 - margin);
-  guess.slope1 = std::clamp(m.slope0 + step1, b.low1 + margin, b.high1 - margin);
-  guess.curvature = std::max(curvature_at(m, anchor), 1e-9);
-  guess.rate = m.rate / std::max(1 - m.slope0 * m.rate * (anchor - m.anchor), 1e-3);
-  guess.anchor = anchor;
-  Eigen::VectorXd x(5);
-  x << std::log(guess.curvature), drawable_rate(guess), guess.slope0, guess.slope1, anchor;
-  return x;
+constexpr std::size_t kStarts = 6;  // docs/design/rhythm-choice.md
+
+/// A slope of that size in the larger part of its range.
+double slope_of(double size, double low, double high) { return low + high < 0 ? -size : size; }
+
+/// Where to begin: of anchors and slopes over their ranges those that leave least.
+std::vector<Eigen::VectorXd> two_lines_starts(const PieceFrame& frame, const SlopeBounds& b) {
+  std::vector<std::pair<double, Eigen::VectorXd>> all;
+  for (const double anchor : {0.2, 0.35, 0.5, 0.65, 0.8})
+    for (const double size0 : {0.2, 0.6, 1.5, 4.0})
+      for (const double size1 : {0.2, 0.6, 1.5, 4.0}) {
+        const LineModel m = with_best_rate(frame, {1, 0, anchor, slope_of(size0, b.low0, b.high0),
+                                                   slope_of(size1, b.low1, b.high1)});
+        Eigen::VectorXd x(5);
+        x << std::log(m.curvature), m.rate, m.slope0, m.slope1, m.anchor;
+        all.emplace_back(frame.displacement(turning_of(m, frame.cells())).norm(), std::move(x));
+      }
+  std::ranges::stable_sort(all, {}, [](const auto& start) { return start.first; });
+  std::vector<Eigen::VectorXd> first;
+  for (std::size_t i = 0; i < kStarts; ++i) first.push_back(std::move(all[i].second));
+  return first;
 }
 
 }  // namespace
 
-LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start,
-                      double seen) {
+LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, double seen) {
   if (is_straight(frame))
     return straight_line(frame, (bounds.low0 + bounds.high0) / 2, (bounds.low1 + bounds.high1) / 2);
   const LineModels lines{
       [&](const Eigen::VectorXd& x) { return two_lines(x, bounds); },
       bounds_of({{bounds.low0, bounds.high0}, {bounds.low1, bounds.high1}, kAnchors})};
-  const double way = bounds.low0 > bounds.low1 ? 1 : -1;
   const PieceFrame few = frame.coarse();
-  Eigen::VectorXd best_x;
+  const std::vector<Eigen::VectorXd> starts = two_lines_starts(few, bounds);
+  Eigen::VectorXd best_x = starts.front();
   double least = std::numeric_limits<double>::infinity();
-  for (double anchor : {0.25, 0.5, 0.75}) {
-    for (const auto& [step0, step1] : {std::pair{0.7, -0.7}, {2.0, -0.2}, {0.2, -2.0}}) {
-      if (least < seen) break;
-      Eigen::VectorXd x = two_lines_guess(start, bounds, anchor, way * step0, way * step1);
-      const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 80), x);
-      if (!(deviation < least)) continue;
-      least = deviation;
-      best_x = x;
-    }
+  for (Eigen::VectorXd x : starts) {
+    if (least < seen) break;
+    const double deviation = settle_at_last_rate(few, lines, fit(few, lines, x, 80), x);
+    if (!(deviation < least)) continue;
+    least = deviation;
+    best_x = x;
   }
   LineFit best;
-  if (best_x.size() == 0) {
-    best.model = start;
-    best.deviation = frame.displacement(turning_of(start, frame.cells())).norm();
-    return best;
-  }
   best.deviation = fit(frame, lines, best_x, 100);
   best.deviation = settle_at_last_rate(frame, lines, best.deviation, best_x);
   best.model = two_lines(best_x, bounds);

@@ -22,8 +22,7 @@ struct LineFit {
 /// deviation so small that a smaller one would say no more; no other start is tried then.
 LineFit fit_one_line(const PieceFrame& frame, double low, double high, double seen);
 
-/// Least-squares fit of two lines with slopes within the bounds, starting from one line.
-LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, const LineModel& start,
-                      double seen);
+/// Least-squares fit of two lines with slopes within the bounds.
+LineFit fit_two_lines(const PieceFrame& frame, const SlopeBounds& bounds, double seen);
 
 }  // namespace keyline::analysis::detail

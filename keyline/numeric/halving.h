@@ -16,4 +16,16 @@ double last_that_holds(Holds&& holds, double good, double bad, int halvings) {
   return good;
 }
 
+/// The largest share of `whole` that holds, within 2^-halvings of the share itself however small:
+/// halved until one holds, from there on towards the one before.
+/// Returns: `whole` where it holds; 0 where nothing above a 2^-40 of it does.
+template <class Holds>
+double largest_share_that_holds(Holds&& holds, double whole, int halvings) {
+  constexpr int kSmallest = 40;
+  double share = whole;
+  for (int i = 0; i <= kSmallest; ++i, share /= 2)
+    if (holds(share)) return i == 0 ? whole : last_that_holds(holds, share, 2 * share, halvings);
+  return 0;
+}
+
 }  // namespace keyline::numeric

@@ -97,11 +97,10 @@ const Candidate* best_of(const std::vector<Candidate>& all, std::optional<double
 /// Largest amount up to `most` at which the blend stays within the limit.
 double amount_within(const BezierSurface& s, const BezierSurface& target, double limit,
                      double most) {
-  if (departure_bound(s, blend(s, target, most), limit) <= limit) return most;
   constexpr int kHalvings = 10;  // to a thousandth of it
-  return numeric::last_that_holds(
+  return numeric::largest_share_that_holds(
       [&](double amount) { return departure_bound(s, blend(s, target, amount), limit) <= limit; },
-      0, most, kHalvings);
+      most, kHalvings);
 }
 
 /// Sorts by departure and leaves out what is no choice: the same as another, or twice as far away

@@ -260,13 +260,11 @@ class AsOne {
   /// That share of the moves, or what of it the limit allows.
   std::vector<BezierSurface> within_limit(const std::vector<BezierSurface>& held,
                                           double share) const {
-    auto moved = blend(held, share);
-    if (!options_.limit) return moved;
-    if (farthest(moved) <= *options_.limit) return moved;
+    if (!options_.limit) return blend(held, share);
     const auto is_within = [&](double part) {
       return farthest(blend(held, part)) <= *options_.limit;
     };
-    return blend(held, numeric::last_that_holds(is_within, 0, share, kHalvings));
+    return blend(held, numeric::largest_share_that_holds(is_within, share, kHalvings));
   }
 
   std::vector<BezierSurface> blend(const std::vector<BezierSurface>& held, double share) const {

@@ -207,6 +207,28 @@ TEST(Rhythm, TheBestSlopeIsNoWorseThanAnyGiven) {
   }
 }
 
+/// Two lines of any slopes, up to beside a cusp or an inflection at an end.
+TEST(Rhythm, TwoLinesAreFoundWhereThereAreTwo) {
+  std::mt19937_64 random(3);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 100; ++i) {
+    const double way = i % 2 == 0 ? 1 : -1, anchor = between(0.15, 0.85);
+    const double slope0 = way * between(0.15, 4), slope1 = -way * between(0.15, 4);
+    double last = -HUGE_VAL;
+    for (const double most : {-slope0 * anchor, slope1 * (1 - anchor)})
+      if (most < 0) last = std::max(last, 1 / most);
+    const double rate = std::isfinite(last) ? last * between(0.3, 0.999) : -between(1, 10);
+    SCOPED_TRACE(::testing::Message() << slope0 << ' ' << slope1 << ' ' << anchor << ' ' << rate);
+    const RhythmReading reading = read(testing::compound(1, rate, anchor, slope0, slope1, 1));
+    const auto kind = way > 0 ? Rhythm::plus_minus : Rhythm::minus_plus;
+    const auto found = std::ranges::find(reading.interpretations, kind, &Interpretation::rhythm);
+    ASSERT_NE(found, reading.interpretations.end());
+    EXPECT_LT(found->deviation, 1e-6);  // a twentieth of what matters
+  }
+}
+
 // Starts of a fit are left out once none could be seen to be better. Read as exact points are,
 // where all are tried, no reading scores better by 0.02, which would change its plausibility by a
 // hundredth.

@@ -46,5 +46,22 @@ TEST(LastThatHolds, TheLastPlaceAskedThatHeldIsTheAnswer) {
   EXPECT_EQ(last_that_holds(holds, 0, 1, 20), kept);
 }
 
+TEST(LargestShareThatHolds, IsAsSharpOfASmallShareAsOfALargeOne) {
+  for (const double limit : {0.3, 7e-3, 2e-9})
+    for (const int halvings : {4, 10}) {
+      const double share =
+          largest_share_that_holds([&](double x) { return x <= limit; }, 0.75, halvings);
+      EXPECT_LE(share, limit);
+      EXPECT_GE(share * (1 + std::ldexp(1.0, -halvings)), limit);
+    }
+}
+
+TEST(LargestShareThatHolds, IsTheWholeWhereThatHoldsAndNothingWhereNothingDoes) {
+  int asked = 0;
+  EXPECT_EQ(largest_share_that_holds([&](double) { return ++asked, true; }, 0.3, 10), 0.3);
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(largest_share_that_holds([](double x) { return x <= 0; }, 0.3, 10), 0);
+}
+
 }  // namespace
 }  // namespace keyline::numeric

@@ -125,7 +125,9 @@ TEST(RandomSurfaces, EditsKeepWhatTheyHoldAndStayWithinTheirLimit) {
       const double by = other == surface ? 1 : net_extent(other) / size;
       if (kind < 2) again["limit"] = by * again["limit"].get<double>();
       const json twin = result_of(again);
-      EXPECT_NEAR(twin["departure"].get<double>() / by, told, 5e-3 * told + rounding);
+      // A bound is within 0.5 % of what is so; the way to a limit is halved to a thousandth.
+      const double apart = 5e-3 + (kind < 2 ? 1e-3 : 0);
+      EXPECT_NEAR(twin["departure"].get<double>() / by, told, apart * told + rounding);
       EXPECT_NEAR(twin["after"]["sav"].get<double>(), result["after"]["sav"].get<double>(),
                   1e-4 * (1 + result["after"]["sav"].get<double>()));
     }
