@@ -149,8 +149,10 @@ namespace {
 
 constexpr std::size_t kStarts = 6;  // docs/design/rhythm-choice.md
 
-/// A slope of that size in the larger part of its range.
-double slope_of(double size, double low, double high) { return low + high < 0 ? -size : size; }
+/// A slope of that size in the larger part of its range, or at its border.
+double slope_of(double size, double low, double high) {
+  return std::clamp(low + high < 0 ? -size : size, low, high);
+}
 
 /// Where to begin: of anchors and slopes over their ranges those that leave least.
 std::vector<Eigen::VectorXd> two_lines_starts(const PieceFrame& frame, const SlopeBounds& b) {
