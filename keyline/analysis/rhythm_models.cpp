@@ -46,13 +46,15 @@ Eigen::VectorXd uncertainty(const PieceFrame& frame, Lines build, const Eigen::V
 }
 
 /// Rates to begin with: shares of the last one with which the piece exists, 0 to beside it; where
-/// there is none, as many that double.
+/// there is none, or beyond these, as many that double.
 std::vector<double> rates_to_try(const LineModel& m) {
   constexpr int kMany = 10;
+  constexpr double kLeast = -0.1;
   const double last = drawable_rates(m).low;
+  const bool near = last > kLeast * std::exp2(kMany);
   std::vector<double> rates;
   for (int k = 0; k < kMany; ++k)
-    rates.push_back(std::isfinite(last) ? last * (1 - std::exp2(-k)) : -0.1 * std::exp2(k));
+    rates.push_back(near ? last * (1 - std::exp2(-k)) : kLeast * std::exp2(k));
   return rates;
 }
 
@@ -154,7 +156,7 @@ double slope_of(double size, double low, double high) {
   return std::clamp(low + high < 0 ? -size : size, low, high);
 }
 
-/// Where to begin: of anchors and slopes over their ranges those that leave least.
+/// Where to begin: of anchors and sizes of slopes those that leave least.
 std::vector<Eigen::VectorXd> two_lines_starts(const PieceFrame& frame, const SlopeBounds& b) {
   std::vector<std::pair<double, Eigen::VectorXd>> all;
   for (const double anchor : {0.2, 0.35, 0.5, 0.65, 0.8})

@@ -82,9 +82,10 @@ struct EditResult {
 /// and network curves. The target of least SAV within the limit is taken, the nearer one of equals;
 /// where none lies within the limit, the nearest of them as far as the limit allows
 /// (part_of_the_way) if SAV does not rise on that part of its way, else the next one; the patch as
-/// given where it rises towards all of them. What the limit allows is found to a thousandth: the
-/// departure told then is the limit to 0.6 %, as sharp as its bound is. No target and no part of
-/// the way to one turns the patch over (turn_over.h).
+/// given where it rises towards all of them. What the limit allows is found to a thousandth: where
+/// it ends the way sooner than `amount` does, the departure told is the limit to 0.6 %, as sharp as
+/// its bound is (of a limit below 1e-12 of the way, 0). No target and no part of the way to one
+/// turns the patch over (turn_over.h).
 ///
 /// Conditions hold for every target (up to 1e-6) and set the minima the values are measured from;
 /// a curve that has no minimum within its ranges is valued as without them.

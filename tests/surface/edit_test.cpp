@@ -205,12 +205,15 @@ TEST(SurfaceEdit, TurnsAndGrowsWithThePatch) {
 
 TEST(SurfaceEdit, LimitBelowEveryTargetGoesAsFarAsItMay) {
   const BezierSurface s = distorted_patch();
-  EditOptions options;
-  options.limit = 0.5;
-  const EditResult r = edited(s, options);
-  EXPECT_LE(r.departure, 0.5);
-  EXPECT_GT(r.departure, 0.49);
-  EXPECT_LT(r.amount, 1);
+  for (const double limit : {0.5, 1e-3, 1e-6}) {
+    SCOPED_TRACE(limit);
+    EditOptions options;
+    options.limit = limit;
+    const EditResult r = edited(s, options);
+    EXPECT_LE(r.departure, limit);
+    EXPECT_GT(r.departure, limit / 1.006);
+    EXPECT_LT(r.amount, 1);
+  }
 }
 
 // All its curves have one matrix (SAV 42.9): part of the way to their minima some have several, at
