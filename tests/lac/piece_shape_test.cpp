@@ -109,5 +109,23 @@ TEST(PieceShape, DerivativesAreThoseOfTheirVariables) {
       }
 }
 
+// A step through zero would be a piece that does not exist, whose integral has no end. The closed
+// form is that of slope 1: kappa = 1 / (1 / k0 + s (1 / k1 - 1 / k0)).
+TEST(PieceShape, NoStepGoesThroughAnInflectionThatTheSlopeDoesNotHave) {
+  constexpr double k0 = 1e-21;
+  constexpr double k1 = 0.0625;
+  const double turning = std::log(k1 / k0) / (1 / k0 - 1 / k1);
+  for (const double alpha : {0.9999999, 1.0, 1.0000001})
+    for (const double sign : {-1.0, 1.0}) {
+      const PieceShape shape = piece_shape(alpha, sign * k0, sign * k1, {}, {});
+      EXPECT_NEAR(shape.turning / (sign * turning), 1, 1e-5) << alpha;
+      EXPECT_NEAR(shape.chord.x, 1, 1e-15);
+      EXPECT_NEAR(shape.turning_by[1], 0, 1e-9);
+      EXPECT_GT(shape.turning_by[0], std::log(k1 * 1e6 / k1) - 1)
+          << "where k0 is a millionth of k1";
+      EXPECT_LT(shape.turning_by[0], std::log(k1 / k0) - 1) << "at k0";
+    }
+}
+
 }  // namespace
 }  // namespace keyline::lac::detail

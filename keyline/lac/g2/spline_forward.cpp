@@ -227,8 +227,9 @@ core::Result<void> reach_slopes(SplineProblem& problem, std::vector<double>& wan
 
 /// End of a piece by the solver's own kernel, which is faster than end_pose.
 core::Pose2 after_piece(const core::Pose2& at, const Piece& p) {
-  const auto shape = detail::piece_shape(p.alpha, p.curvature_start * p.length,
-                                         p.curvature_end * p.length, {}, {});
+  const auto shape =
+      detail::piece_shape(p.alpha, p.curvature_start * p.length, p.curvature_end * p.length,
+                          detail::kFixed, detail::kFixed);
   return {at.position + p.length * core::rotate_ccw(shape.chord, at.direction),
           at.direction + shape.turning};
 }

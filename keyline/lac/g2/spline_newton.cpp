@@ -139,10 +139,10 @@ SpanValue Spline::value_of_split(std::size_t i) const {
   const CurvatureVariable& v0 = variables_[i];
   const CurvatureVariable& v1 = variables_[i + 1];
   const double alpha = problem_.alpha[i];
-  const PieceShape a = at_start ? piece_shape(alpha, given * half, k0 * half, {}, v0)
+  const PieceShape a = at_start ? piece_shape(alpha, given * half, k0 * half, kFixed, v0)
                                 : piece_shape(alpha, k0 * half, k1 * half, v0, v1);
   const PieceShape b = at_start ? piece_shape(alpha, k0 * half, k1 * half, v0, v1)
-                                : piece_shape(alpha, k1 * half, given * half, v1, {});
+                                : piece_shape(alpha, k1 * half, given * half, v1, kFixed);
   const Vector2 second = core::rotate_ccw(b.chord, a.turning);
   const auto later = [&](Vector2 by, double turned) {
     return core::rotate_ccw(by, a.turning) + turned * core::perpendicular_left(second);

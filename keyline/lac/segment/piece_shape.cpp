@@ -37,6 +37,7 @@ Sums clothoid_sums(double k0, double k1) {
 
 /// Factor dkappa/dx of the variable x; a power's variable is not used at kappa = 0.
 double rate_of(double kappa, const CurvatureVariable& v) {
+  if (v.step == CurvatureStep::fixed) return 0;
   if (v.step == CurvatureStep::linear) return 1;
   if (v.step == CurvatureStep::logarithm) return kappa;
   return std::pow(std::abs(kappa), 1 - v.power) / v.power;
@@ -159,6 +160,7 @@ struct InflectionFrame {
 
 /// dz/dx of the variable x, p the power of z.
 double z_rate_of(double kappa, double size, double p, const CurvatureVariable& v) {
+  if (v.step == CurvatureStep::fixed) return 0;
   if (v.step == CurvatureStep::power && v.power == p) return 1;
   const double k = std::max(std::abs(kappa), 1e-9 * size);
   const double by_kappa = p * std::pow(k, p - 1);
@@ -213,13 +215,17 @@ PieceShape general_shape(double alpha, double k0, double k1, const CurvatureVari
                               double& turning_by) {
     std::array<Vector2, 2> chord;
     std::array<double, 2> turning{};
+    const double k = which == 0 ? k0 : k1;
+    double apart = 0;
     for (int side = 0; side < 2; ++side) {
-      const double step = side == 0 ? -h : h;
-      end(which == 0 ? stepped(k0, step, v) : k0, which == 1 ? stepped(k1, step, v) : k1,
-          chord[side], turning[side]);
+      double moved = stepped(k, side == 0 ? -h : h, v);
+      const bool inflects = alpha >= 0 && moved * k < 0;  // which no piece of this slope does
+      if (inflects) moved = k;
+      if (!inflects) apart += h;
+      end(which == 0 ? moved : k0, which == 1 ? moved : k1, chord[side], turning[side]);
     }
-    by = (chord[1] - chord[0]) / (2 * h);
-    turning_by = (turning[1] - turning[0]) / (2 * h);
+    by = (chord[1] - chord[0]) / apart;
+    turning_by = (turning[1] - turning[0]) / apart;
   };
   // Of a power the width that changes the larger curvature by a millionth, however flat the power.
   const auto width = [size](const CurvatureVariable& v) {
@@ -227,8 +233,10 @@ PieceShape general_shape(double alpha, double k0, double k1, const CurvatureVari
                    : v.step == CurvatureStep::linear ? size
                                                      : 1.0);
   };
-  difference(0, v0, width(v0), shape.chord_by[0], shape.turning_by[0]);
-  difference(1, v1, width(v1), shape.chord_by[1], shape.turning_by[1]);
+  if (v0.step != CurvatureStep::fixed)
+    difference(0, v0, width(v0), shape.chord_by[0], shape.turning_by[0]);
+  if (v1.step != CurvatureStep::fixed)
+    difference(1, v1, width(v1), shape.chord_by[1], shape.turning_by[1]);
   // Growing keeps the ratio of the curvatures.
   const double h = 1e-6;
   Vector2 more;

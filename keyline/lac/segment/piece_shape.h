@@ -14,9 +14,10 @@ namespace keyline::lac::detail {
 
 /// The variable in which a Newton step changes a curvature.
 enum class CurvatureStep {
-  linear,    ///< kappa itself
-  power,     ///< sgn(kappa) |kappa|^p: regular where kappa crosses zero between pieces of slope -p
-  logarithm  ///< ln |kappa|: the sign is kept
+  linear,     ///< kappa itself
+  power,      ///< sgn(kappa) |kappa|^p: regular where kappa crosses zero between pieces of slope -p
+  logarithm,  ///< ln |kappa|: the sign is kept
+  fixed       ///< no unknown: its derivatives are 0, and none is sought
 };
 
 /// Curvature of one end of a piece as an unknown.
@@ -25,7 +26,10 @@ struct CurvatureVariable {
   double power = 1;  ///< of CurvatureStep::power
 };
 
+inline constexpr CurvatureVariable kFixed{CurvatureStep::fixed, 1};
+
 inline double stepped(double kappa, double by, const CurvatureVariable& v) {
+  if (v.step == CurvatureStep::fixed) return kappa;
   if (v.step == CurvatureStep::linear) return kappa + by;
   if (v.step == CurvatureStep::logarithm) return kappa * std::exp(by);
   return numeric::signed_power(numeric::signed_power(kappa, v.power) + by, 1 / v.power);
