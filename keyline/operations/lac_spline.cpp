@@ -49,7 +49,8 @@ struct SplineReport {
   static constexpr auto describe() {
     return core::fields(
         core::field<&SplineReport::spans>("pieces between points"),
-        core::field<&SplineReport::overridden>("spans whose curvature changes sign"),
+        core::field<&SplineReport::overridden>(
+            "spans whose curvature changes sign, or that have a needle otherwise"),
         core::field<&SplineReport::deviation>("largest distance of a point").in("length"),
         core::field<&SplineReport::iterations>("of the solver"));
   }
@@ -96,9 +97,10 @@ Result<SplineResult> run(const SplineRequest& request, const Context&) {
 Operation lac_spline_operation() {
   return declare<run>(
       {.name = "lac.spline",
-       .summary = "The G2 spline of log-aesthetic pieces through the points, one piece per span. "
-                  "Spans whose curvature changes sign need a slope below 0; the report lists those "
-                  "overridden.",
+       .summary =
+           "The G2 spline of log-aesthetic pieces through the points, one piece per span. "
+           "Spans whose curvature changes sign need a slope below 0, and not next to it; the "
+           "report lists those overridden.",
        .examples = {R"({"points":[[0,0],[1,0.8],[2.5,1],[4,0.2]],"alpha":-1})",
                     R"({"points":[[0,0],[3,0],[3,2],[0,2]],"closed":true})"}});
 }

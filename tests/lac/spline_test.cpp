@@ -337,6 +337,24 @@ TEST(Spline, IsNeverWild) {
   EXPECT_GT(by_span, 0);
 }
 
+// Next to slope 0 curvature changes its sign only in a needle, whose radius here would be 1e-7.
+TEST(Spline, SpansWithANeedleGetAnotherSlope) {
+  const std::vector<Point2> points{{0.33, 0.4}, {1.41, 0.56}, {2.58, 0.9}, {3.11, 0.23}};
+  SplineOptions options;
+  options.closed = true;
+  for (const double slope : {-1e-5, -1e-6, -1e-8}) {
+    options.alpha = {0, slope, -2.2, 0};
+    const auto s = solve_spline(points, options);
+    ASSERT_TRUE(s) << slope;
+    double sharpest = 0;
+    for (const Piece& p : s->chain.pieces)
+      sharpest = std::max(sharpest, std::abs(p.curvature_start));
+    EXPECT_LT(sharpest, 30) << slope << ": the points are a ring of two to three across";
+    EXPECT_EQ(std::ranges::count(s->overridden, 1u), 1) << slope;
+    EXPECT_LT(misses(*s, points), 1e-12) << slope;
+  }
+}
+
 TEST(Spline, StraightDataGiveAStraightLine) {
   const std::vector<Point2> points{{0, 0}, {1, 1}, {3, 3}};
   const auto s = solve_spline(points, with_slope(2));

@@ -31,7 +31,8 @@ struct SplineSolution {
   Chain chain;
   std::vector<std::size_t> span;  ///< of each piece of the chain: between points span and span + 1
   /// Spans whose slope is -1 instead of the one asked for: because curvature changes sign there
-  /// (slopes from 0 on), or comes near it and no curve of the slopes asked for was found.
+  /// (slopes from 0 on), or comes near it and no curve of the slopes asked for was found, or only
+  /// one with a needle.
   std::vector<std::size_t> overridden;
   bool span_by_span = false;  ///< the spline of one piece per span would have been wild
   double deviation = 0;  ///< largest distance of the chain's joints from the points, and of its end

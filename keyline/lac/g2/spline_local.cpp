@@ -102,15 +102,27 @@ core::Result<SplineSolution> solve_spans(std::span<const Point2> points,
   return solution;
 }
 
+/// Whether a joint turns on a thousandth of the span, which neither end asks for: slopes next to 0
+/// change the sign of curvature in no other way, and some beside 1 wind into a point.
+bool has_needle(const Chain& chain, const CurvatureElement& start, const CurvatureElement& end) {
+  const double allowed =
+      std::max({kWildCurvature / distance(start.pose.position, end.pose.position),
+                std::abs(start.curvature), std::abs(end.curvature)});
+  return std::any_of(chain.pieces.begin(), chain.pieces.end(),
+                     [&](const Piece& p) { return !(std::abs(p.curvature_start) <= allowed); });
+}
+
 }  // namespace
 
 core::Result<SpanCurve> solve_span(const CurvatureElement& start, const CurvatureElement& end,
                                    double wanted) {
   auto found = solve_g2(start, end, wanted);
-  const bool give_way = !found && wanted != -1 && found.error().code != core::ErrorCode::bad_input;
-  if (give_way) found = solve_g2(start, end, -1);
+  if (wanted != -1 && (found ? has_needle(found->chain, start, end)
+                             : found.error().code != core::ErrorCode::bad_input)) {
+    if (auto calm = solve_g2(start, end, -1)) return SpanCurve{std::move(calm->chain), true};
+  }
   if (!found) return std::unexpected(found.error());
-  return SpanCurve{std::move(found->chain), give_way};
+  return SpanCurve{std::move(found->chain), false};
 }
 
 double deviation_of(std::span<const Point2> points, const SplineSolution& solution) {

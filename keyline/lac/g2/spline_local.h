@@ -13,9 +13,9 @@ namespace keyline::lac::detail {
 /// One span between directions and curvatures.
 struct SpanCurve {
   Chain chain;
-  bool overridden = false;  ///< of slope -1, since there is none of the slope wanted
+  bool overridden = false;  ///< of slope -1: there is none of the slope wanted, or it has a needle
 };
-/// By solve_g2. Fails as that does for slope -1, bad_input as for the slope wanted.
+/// By solve_g2; fails as that does for the slope wanted where there is none of slope -1 either.
 core::Result<SpanCurve> solve_span(const CurvatureElement& start, const CurvatureElement& end,
                                    double wanted);
 

@@ -54,6 +54,8 @@ PieceShape piece_shape(double alpha, double k0, double k1, const CurvatureVariab
 /// A piece that turns by more, or is longer in chords, counts as wild where nothing else tells.
 inline constexpr double kWildTurning = 1.5 * core::kPi;
 inline constexpr double kWildLength = 12;
+/// Of a joint, in turns of the chord: a radius of a thousandth of it is a point to any eye.
+inline constexpr double kWildCurvature = 1000;
 
 /// Curvature times length beyond which a piece on the way to an answer counts as astray: from an
 /// inflection to such an end it turns by 8 rad.
